@@ -1,0 +1,37 @@
+# The ROS side: conversions, nodelets and executables.
+
+# An executable of the package, started by `rosrun slipnav <name>`. Target names are shared by a whole workspace, so
+# they carry the package's name; the file does not.
+function(slipnav_add_tool source)
+  get_filename_component(name "${source}" NAME_WE)
+  add_executable(slipnav_${name} "${source}")
+  set_target_properties(slipnav_${name} PROPERTIES OUTPUT_NAME ${name} INSTALL_RPATH "$ORIGIN/..")
+  slipnav_configure_target(slipnav_${name})
+  target_link_libraries(slipnav_${name} PRIVATE slipnav_ros)
+  install(TARGETS slipnav_${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endfunction()
+
+if(ros_sources)
+  add_library(slipnav_ros SHARED ${ros_sources})
+  slipnav_configure_target(slipnav_ros)
+  # SYSTEM: the warnings above are for this package's own code, not for generated or foreign headers.
+  target_include_directories(slipnav_ros SYSTEM PUBLIC
+    "${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}" ${catkin_INCLUDE_DIRS} ${Boost_INCLUDE_DIRS})
+  target_link_libraries(slipnav_ros PUBLIC slipnav_core ${catkin_LIBRARIES})
+  set_target_properties(slipnav_ros PROPERTIES INSTALL_RPATH "$ORIGIN")
+  if(TARGET ${PROJECT_NAME}_generate_messages_cpp)
+    add_dependencies(slipnav_ros ${PROJECT_NAME}_generate_messages_cpp)
+  endif()
+
+  if(nodelet_sources)
+    add_library(slipnav_nodelets SHARED ${nodelet_sources})
+    slipnav_configure_target(slipnav_nodelets)
+    target_link_libraries(slipnav_nodelets PRIVATE slipnav_ros)
+    set_target_properties(slipnav_nodelets PROPERTIES INSTALL_RPATH "$ORIGIN")
+  endif()
+
+  file(GLOB tool_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/tools/*.cpp")
+  foreach(source IN LISTS tool_sources)
+    slipnav_add_tool("${source}")
+  endforeach()
+endif()
