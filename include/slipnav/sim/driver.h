@@ -1,0 +1,38 @@
+#pragma once
+/// The scripted operator, who sees the true pose: rest, straight initialisation drive, winding route, rest.
+
+#include "slipnav/sim/params.h"
+#include "slipnav/sim/route.h"
+#include "slipnav/sim/simulator.h"
+#include "slipnav/sim/truth_state.h"
+
+namespace slipnav::sim {
+
+class Driver {
+ public:
+  explicit Driver(const SimulatorParams& params);
+
+  /// Command for the coming interval. With `hold` the rover is stopped (or kept stopped) whatever the script says;
+  /// the drive goes on where it was when the hold is released.
+  Command command(const TruthState& truth, bool hold);
+
+  /// The initial rest and the straight drive are over: the distance that counts has begun.
+  bool initialisationDriveDone() const { return phase_ >= Phase::kRoute; }
+  /// Distance and final rest are done.
+  bool finished() const { return phase_ == Phase::kFinished; }
+
+ private:
+  enum class Phase { kInitialRest, kInitialStraight, kRoute, kFinalRest, kFinished };
+
+  void advancePhase(const TruthState& truth);
+  double steer(const TruthState& truth);
+
+  DriveParams params_;
+  Route route_;
+  Nanoseconds start_stamp_;
+  Nanoseconds rest_start_stamp_ = 0;
+  double route_start_m_ = 0.0;
+  Phase phase_ = Phase::kInitialRest;
+};
+
+}  // namespace slipnav::sim

@@ -1,0 +1,95 @@
+#pragma once
+/// Parameters of the simulated drive. Units stand in the names; sensor errors are in data-sheet units.
+
+#include <string>
+
+#include "slipnav/config/parameter_visitor.h"
+
+namespace slipnav::sim {
+
+/// The rover's geometry and how it takes commands. Defaults are the paper's rover (Pathfinder).
+struct VehicleParams {
+  double wheel_radius_m = 0.11;      ///< nominal
+  double wheelbase_m = 0.555;        ///< between front and rear axle
+  double track_m = 0.685;            ///< between left and right wheels
+  double acceleration_mps2 = 0.6;    ///< limit of the speed ramp
+  double common_radius_error = 0.005;  ///< 1σ of the relative radius error that all wheels share
+  double wheel_radius_error = 0.002;   ///< 1σ of each wheel's own
+
+  void visit(ParameterVisitor& v);
+};
+
+/// The inertial sensor. Defaults: ADIS16495 data sheet, rev. A, block mean at 50 Hz.
+struct ImuParams {
+  double rate_hz = 50.0;
+  double stamp_jitter_s = 0.0;  ///< 1σ of the sampling instants about the regular ones; stamps tell the true instants
+  bool error_free = false;      ///< true: mean rate and mean specific force without any error or vibration
+  double lever_arm_x_m = 0.0;   ///< sensor seen from base_link, body axes (forward, right, down)
+  double lever_arm_y_m = 0.0;
+  double lever_arm_z_m = 0.0;
+  double misalignment_roll_deg = 0.0;  ///< attitude of the sensor in the body that nobody knows of
+  double misalignment_pitch_deg = 0.0;
+  double misalignment_yaw_deg = 0.0;
+  double gyro_noise_deg_per_sqrt_h = 0.1;        ///< angle random walk
+  double accel_noise_mps_per_sqrt_h = 0.008;     ///< velocity random walk
+  double gyro_turn_on_bias_deg_per_h = 30.0;     ///< 1σ, what is left after the maker's and the user's calibration
+  double accel_turn_on_bias_mg = 1.5;            ///< 1σ, repeatability
+  double gyro_in_run_bias_deg_per_h = 1.6;       ///< 1σ of the Gauss-Markov part
+  double accel_in_run_bias_ug = 3.2;             ///< 1σ of the Gauss-Markov part
+  double bias_correlation_s = 1500.0;            ///< time constant of the Gauss-Markov part
+  double scale_factor_ppm = 200.0;               ///< 1σ, each axis of both triads
+  double vibration = 1.0;  ///< factor on the terrain's vibration that the block mean lets through while driving
+
+  void visit(ParameterVisitor& v);
+};
+
+struct EncoderParams {
+  double rate_hz = 10.0;
+  double counts_per_turn = 47000.0;  ///< quadrature counts per turn of the wheel, after the gear
+
+  void visit(ParameterVisitor& v);
+};
+
+/// A receiver that gives one fix per epoch with white noise.
+struct GnssParams {
+  double rate_hz = 10.0;
+  double horizontal_noise_m = 0.01;  ///< 1σ, each of north and east
+  double vertical_noise_m = 0.02;    ///< 1σ
+  double antenna_x_m = 0.0;          ///< antenna seen from base_link, body axes (forward, right, down)
+  double antenna_y_m = 0.0;
+  double antenna_z_m = 0.0;
+
+  void visit(ParameterVisitor& v);
+};
+
+/// What the scripted operator does: rest, straight initialisation drive, winding route, rest.
+struct DriveParams {
+  double speed_mps = 0.8;
+  double initial_rest_s = 30.0;
+  double initial_straight_m = 12.0;
+  double distance_m = 150.0;  ///< driven after the initialisation
+  double final_rest_s = 5.0;
+
+  void visit(ParameterVisitor& v);
+};
+
+struct SimulatorParams {
+  int seed = 1;
+  std::string terrain = "rough";  ///< one of terrainNames()
+  double start_time_s = 1.6e9;    ///< stamp of the start pose
+  double start_latitude_deg = 39.7389;  ///< Point Marion, Pennsylvania: the paper's ash pile
+  double start_longitude_deg = -79.8987;
+  double start_height_m = 250.0;
+  DriveParams drive;
+  VehicleParams vehicle;
+  ImuParams imu;
+  EncoderParams encoder;
+  GnssParams gps;
+  GnssParams truth;  ///< post-processed differential fixes
+
+  void visit(ParameterVisitor& v);
+  /// Throws std::invalid_argument that names the field.
+  void validate() const;
+};
+
+}  // namespace slipnav::sim

@@ -1,0 +1,38 @@
+#pragma once
+/// The path that the operator follows: a straight start, then gentle bends and now and then a sharp turn.
+
+#include <vector>
+
+#include "slipnav/sim/random.h"
+#include "slipnav/types.h"
+
+namespace slipnav::sim {
+
+/// A point of the path in the tangent plane at the start.
+struct RoutePoint {
+  double east_m = 0.0;
+  double north_m = 0.0;
+  double heading_rad = 0.0;  ///< from north towards east
+};
+
+class Route {
+ public:
+  /// @param straight_m length of the straight start
+  /// @param length_m total length that must be available
+  Route(std::uint64_t seed, double straight_m, double length_m);
+
+  /// Heading of the straight start [rad].
+  double startHeading() const { return points_.front().heading_rad; }
+
+  /// Curvature [1/m], positive to the right, of the arc from the pose to the point `lookahead_m` further on the path
+  /// (pure pursuit). Moves the place on the path forward to the point nearest to the pose, never back.
+  double pursue(const RoutePoint& pose, double lookahead_m);
+
+ private:
+  void append(double curvature_per_m);
+
+  std::vector<RoutePoint> points_;  ///< kSpacing apart
+  std::size_t nearest_ = 0;
+};
+
+}  // namespace slipnav::sim
