@@ -16,6 +16,7 @@ list(FILTER core_sources EXCLUDE REGEX "/src/(ros|nodelets|tools)/")
 add_library(slipnav_core SHARED ${core_sources})
 slipnav_configure_target(slipnav_core)
 target_include_directories(slipnav_core PUBLIC "${PROJECT_SOURCE_DIR}/include")
+#catkin_lint: ignore_once external_interface_path
 target_include_directories(slipnav_core SYSTEM PUBLIC ${GeographicLib_INCLUDE_DIRS} ${NLOPT_INCLUDE_DIR})
 target_link_libraries(slipnav_core
   PUBLIC Eigen3::Eigen ${GeographicLib_LIBRARIES} ${YAML_CPP_LIBRARIES}

@@ -21,5 +21,7 @@ install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION
 
 file(GLOB python_scripts CONFIGURE_DEPENDS RELATIVE "${PROJECT_SOURCE_DIR}" "${PROJECT_SOURCE_DIR}/scripts/*.py")
 if(python_scripts)
-  catkin_install_python(PROGRAMS ${python_scripts} DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  #catkin_lint: ignore_once argument_error
+  catkin_install_python(PROGRAMS ${python_scripts}
+    DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endif()

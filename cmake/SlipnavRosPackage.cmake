@@ -54,6 +54,7 @@ catkin_package(
     roscpp
     sensor_msgs
     std_msgs
+    std_srvs
     tf2_ros
     visualization_msgs
 )

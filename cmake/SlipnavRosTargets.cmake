@@ -15,6 +15,7 @@ if(ros_sources)
   add_library(slipnav_ros SHARED ${ros_sources})
   slipnav_configure_target(slipnav_ros)
   # SYSTEM: the warnings above are for this package's own code, not for generated or foreign headers.
+  #catkin_lint: ignore_once external_interface_path external_directory
   target_include_directories(slipnav_ros SYSTEM PUBLIC
     "${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}" ${catkin_INCLUDE_DIRS} ${Boost_INCLUDE_DIRS})
   target_link_libraries(slipnav_ros PUBLIC slipnav_core ${catkin_LIBRARIES})
