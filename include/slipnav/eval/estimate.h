@@ -12,11 +12,11 @@ namespace slipnav {
 struct EstimateSample {
   Nanoseconds stamp = 0;
   Vector3 position_enu_m = Vector3::Zero();
-  Matrix3 covariance_enu_m2 = Matrix3::Zero();         ///< of the position
+  Matrix3 covariance_enu_m2 = Matrix3::Zero();  ///< of the position
   Quaternion q_flu_to_enu = Quaternion::Identity();
-  double speed_mps = 0.0;                              ///< forward speed
-  std::optional<double> slip;                          ///< mean slip ratio of the wheels, none when undefined
-  bool stationary = false;                             ///< judged to stand still
+  double speed_mps = 0.0;      ///< forward speed
+  std::optional<double> slip;  ///< mean slip ratio of the wheels, none when undefined
+  bool stationary = false;     ///< judged to stand still
 };
 
 /// Epochs in ascending order of stamp.

@@ -1,5 +1,5 @@
 #pragma once
-/// GPS time and civil UTC to UNIX time.
+/// Calendar, GPS time and UTC to UNIX time.
 ///
 /// UNIX time counts 86 400 s a day: an inserted leap second 23:59:60 shares its stamps with the 00:00:00 that follows.
 
@@ -7,26 +7,26 @@
 
 namespace slipnav {
 
-/// UTC, or any other time scale told in days of 86 400 s.
-struct CivilTime {
+/// Date and time of day, in whatever time scale.
+struct CalendarTime {
   int year = 1970;
   int month = 1;  ///< 1 to 12
   int day = 1;    ///< 1 to 31
   int hour = 0;
   int minute = 0;
-  Nanoseconds second_ns = 0;  ///< within the minute; up to 61 s, for a leap second
+  Nanoseconds second_ns = 0;  ///< within the minute; below 61 s, for a leap second
 };
 
-/// UNIX nanoseconds of a civil UTC time. Throws std::invalid_argument for a date or time that does not exist.
-Nanoseconds unixFromUtc(const CivilTime& utc);
+/// Nanoseconds since 1970-01-01 by a calendar whose days all have 86 400 s, in the time scale of the argument: for UTC
+/// this is UNIX time. Throws std::invalid_argument for a date or time that does not exist.
+Nanoseconds calendarNanoseconds(const CalendarTime& time);
 
-/// UNIX nanoseconds of a civil time in GPS time (no leap seconds). Throws as unixFromUtc(), and before 1980-01-06.
-Nanoseconds unixFromGpst(const CivilTime& gpst);
+/// The same for a week and a time of week counted from 1980-01-06 (weeks not rolled over). Throws
+/// std::invalid_argument when out of range.
+Nanoseconds calendarNanoseconds(int gps_week, Nanoseconds time_of_week_ns);
 
-/// UNIX nanoseconds of GPS week (not rolled over) and time of week. Throws std::invalid_argument when out of range.
-Nanoseconds unixFromGpsWeek(int week, Nanoseconds time_of_week_ns);
-
-/// GPS time minus UTC [s] at a GPS time since 1980-01-06 (IERS Bulletin C; 18 s since 2017-01-01).
-int leapSecondsAtGps(Nanoseconds since_gps_epoch);
+/// UNIX time of calendar nanoseconds in GPS time: less the leap seconds since 1980-01-06 (IERS Bulletin C; 18 s since
+/// 2017-01-01). Throws std::invalid_argument before 1980-01-06.
+Nanoseconds unixFromGpst(Nanoseconds gpst_calendar);
 
 }  // namespace slipnav

@@ -44,16 +44,16 @@ struct MetricsOptions {
 
 /// Names equal the keys of `metrics.json`. None where a figure cannot be told, such as errors without truth.
 struct Metrics {
-  std::optional<double> distance_m;  ///< D, along truth, over the epochs of the estimate
-  double duration_s = 0.0;           ///< T, first to last epoch of the estimate
-  std::int64_t stop_count = 0;       ///< see findStops()
-  std::optional<double> stop_rate_pct;         ///< 100·(time in stops)/T
-  std::optional<double> enu_error_pct;         ///< 100·√(RMS_E² + RMS_N² + RMS_U²)/D
-  std::optional<double> median_error_pct;      ///< 100·(median horizontal error)/D
-  std::optional<double> horizontal_median_m;   ///< of √(e_E² + e_N²); so are the three below
-  std::optional<double> horizontal_std_m;      ///< divisor n
+  std::optional<double> distance_m;           ///< D, along truth, over the epochs of the estimate
+  double duration_s = 0.0;                    ///< T, first to last epoch of the estimate
+  std::int64_t stop_count = 0;                ///< see findStops()
+  std::optional<double> stop_rate_pct;        ///< 100·(time in stops)/T
+  std::optional<double> enu_error_pct;        ///< 100·√(RMS_E² + RMS_N² + RMS_U²)/D
+  std::optional<double> median_error_pct;     ///< 100·(median horizontal error)/D
+  std::optional<double> horizontal_median_m;  ///< of √(e_E² + e_N²); so are the three below
+  std::optional<double> horizontal_std_m;     ///< divisor n
   std::optional<double> horizontal_max_m;
-  std::optional<double> horizontal_final_m;    ///< at the last truth epoch that the estimate covers
+  std::optional<double> horizontal_final_m;  ///< at the last truth epoch that the estimate covers
   std::optional<double> rms_east_m;
   std::optional<double> rms_north_m;
   std::optional<double> rms_up_m;

@@ -15,9 +15,9 @@ namespace slipnav {
 /// count as zero, judged by a straight-line fit over the same window, which is less noisy. Across gaps, and in pieces
 /// of truth too short for the fit, the distance is that of the straight line.
 struct DistanceOptions {
-  double half_window_s = 1.0;            ///< the fit takes the samples this near; at least two on either side
-  double standstill_speed_mps = 0.03;    ///< slower is standing
-  bool horizontal = false;               ///< leave height out: for truth whose height wanders
+  double half_window_s = 1.0;          ///< the fit takes the samples this near; at least two on either side
+  double standstill_speed_mps = 0.03;  ///< slower is standing
+  bool horizontal = false;             ///< leave height out: for truth whose height wanders
 };
 
 /// Distance [m] along the samples of truth in [from, to].
@@ -29,8 +29,9 @@ struct Stop {
   Nanoseconds end = 0;  ///< first epoch that moves again
 };
 
-/// Stops of a drive by the stationary flags of the estimate. Interruptions shorter than `min_duration_s` are bridged
-/// and stops shorter than that ignored. Standing before the first and after the last motion is no stop.
+/// Stops of a drive by the stationary flags of the estimate. Motion shorter than `min_duration_s` is taken for
+/// standstill and standstill shorter than that is ignored. Standing before the first and after the last motion is no
+/// stop.
 std::vector<Stop> findStops(const EstimateTrack& estimates, double min_duration_s = 0.5);
 
 }  // namespace slipnav

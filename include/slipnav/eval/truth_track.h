@@ -28,8 +28,7 @@ class TruthTrack {
   explicit TruthTrack(std::vector<TruthSample> samples, double max_gap_s = kMaxGapS);
 
   /// Satellite fixes (positions of the antenna) in the local frame of the estimator.
-  static TruthTrack fromFixes(const std::vector<GnssFix>& fixes, const LocalFrame& frame,
-                              double max_gap_s = kMaxGapS);
+  static TruthTrack fromFixes(const std::vector<GnssFix>& fixes, const LocalFrame& frame, double max_gap_s = kMaxGapS);
 
   bool empty() const { return samples_.empty(); }
   const std::vector<TruthSample>& samples() const { return samples_; }
