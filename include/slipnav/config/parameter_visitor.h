@@ -6,6 +6,7 @@
 
 #include <initializer_list>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,7 +34,7 @@ class ParameterVisitor {
   virtual void words(const char* name, std::vector<std::string>& value, std::initializer_list<const char*> options,
                      const char* meaning) = 0;
 
-  /// A nested block. `visitFields` calls back with this visitor inside the block.
+  /// A nested block; its own visit() is called with this visitor inside the block.
   template <class Parameters>
   void group(const char* name, Parameters& parameters, const char* meaning) {
     if (enterGroup(name, meaning)) {
@@ -42,10 +43,13 @@ class ParameterVisitor {
     }
   }
 
-  /// A list of blocks of one kind; the reader sets its length.
+  /// A list of blocks of one kind. A reader that finds one replaces the whole list; no item keeps an old value.
   template <class Parameters>
   void list(const char* name, std::vector<Parameters>& items, const char* meaning) {
-    items.resize(enterList(name, items.size(), meaning));
+    const std::optional<std::size_t> new_size = enterList(name, items.size(), meaning);
+    if (new_size) {
+      items = std::vector<Parameters>(*new_size);
+    }
     for (std::size_t i = 0; i < items.size(); ++i) {
       enterItem(i);
       items[i].visit(*this);
@@ -57,8 +61,8 @@ class ParameterVisitor {
  protected:
   virtual bool enterGroup(const char* name, const char* meaning) = 0;
   virtual void leaveGroup() = 0;
-  /// @return the length the list shall have
-  virtual std::size_t enterList(const char* name, std::size_t current_size, const char* meaning) = 0;
+  /// @return the length of the list that replaces the present one; nothing to leave that as it is
+  virtual std::optional<std::size_t> enterList(const char* name, std::size_t current_size, const char* meaning) = 0;
   virtual void enterItem(std::size_t index) = 0;
   virtual void leaveItem() = 0;
   virtual void leaveList() = 0;

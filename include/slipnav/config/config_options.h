@@ -1,0 +1,15 @@
+#pragma once
+/// The options that every executable with a configuration shares.
+
+#include "slipnav/config/command_line.h"
+#include "slipnav/config/config.h"
+
+namespace slipnav {
+
+/// Declares --config, --topic and --set.
+void declareConfigOptions(CommandLine& command_line);
+
+/// The configuration that those options describe. Throws std::invalid_argument, see Config::load().
+Config configFromOptions(const Arguments& arguments);
+
+}  // namespace slipnav

@@ -1,0 +1,34 @@
+#pragma once
+/// Small text helpers of the configuration: numbers that survive a round trip, and the name that was probably meant.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipnav/config/parameter_visitor.h"
+
+namespace slipnav {
+
+/// Shortest decimal text that reads back as the same double, whatever the process locale.
+std::string formatNumber(double value);
+
+/// A decimal number with or without a dot ("1e-9"), whatever the process locale; nothing unless all of `text` is one
+/// and it is finite.
+std::optional<double> parseNumber(const std::string& text);
+
+/// A decimal integer; nothing unless all of `text` is one and it fits.
+std::optional<int> parseInteger(const std::string& text);
+
+/// "0 to 1", "at least 0", "at most 1", or "" for an unbounded range.
+std::string describeRange(const Range& range);
+
+/// "a, b or c".
+std::string joinAlternatives(const std::vector<std::string>& names);
+
+/// Levenshtein distance: insertions, deletions and substitutions that turn one text into the other.
+std::size_t editDistance(const std::string& a, const std::string& b);
+
+/// The candidate with the least edit distance to `name` (the first of equals), "" when there is none.
+std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
+
+}  // namespace slipnav

@@ -1,0 +1,22 @@
+#include "slipnav/config/config_options.h"
+
+namespace slipnav {
+
+void declareConfigOptions(CommandLine& command_line) {
+  command_line.repeated("config", "YAML", "configuration file; of several the later ones win")
+      .repeated("topic", "NAME:=OTHER", "what the robot or the recording calls a topic")
+      .repeated("set", "BLOCK.KEY=VALUE", "one setting, over those of the files");
+}
+
+Config configFromOptions(const Arguments& arguments) {
+  std::vector<Override> overrides;
+  for (const std::string& argument : arguments.all("topic")) {
+    overrides.push_back(topicOverride(argument));
+  }
+  for (const std::string& argument : arguments.all("set")) {
+    overrides.push_back(keyOverride(argument));
+  }
+  return Config::load(arguments.all("config"), overrides);
+}
+
+}  // namespace slipnav
