@@ -12,6 +12,9 @@ class Driver {
  public:
   explicit Driver(const SimulatorParams& params);
 
+  /// The path that these parameters give.
+  static Route routeOf(const SimulatorParams& params);
+
   /// Command for the coming interval. With `hold` the rover is stopped (or kept stopped) whatever the script says;
   /// the drive goes on where it was when the hold is released.
   Command command(const TruthState& truth, bool hold);

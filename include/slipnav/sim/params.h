@@ -13,6 +13,7 @@ struct VehicleParams {
   double wheelbase_m = 0.555;        ///< between front and rear axle
   double track_m = 0.685;            ///< between left and right wheels
   double acceleration_mps2 = 0.6;    ///< limit of the speed ramp
+  double assumed_track_factor = 1.4;   ///< scrub that the controller allows for when it turns a yaw rate into speeds
   double common_radius_error = 0.005;  ///< 1σ of the relative radius error that all wheels share
   double wheel_radius_error = 0.002;   ///< 1σ of each wheel's own
 
@@ -75,7 +76,7 @@ struct DriveParams {
 
 struct SimulatorParams {
   int seed = 1;
-  std::string terrain = "rough";  ///< one of terrainNames()
+  std::string terrain = "rough";  ///< one of kTerrainNames (ground.h)
   double start_time_s = 1.6e9;    ///< stamp of the start pose
   double start_latitude_deg = 39.7389;  ///< Point Marion, Pennsylvania: the paper's ash pile
   double start_longitude_deg = -79.8987;

@@ -21,8 +21,8 @@ struct TruthState {
   Vector3 v_eb_n = Vector3::Zero();                    ///< velocity over the planet, north-east-down [m/s]
   Vector3 v_eb_b = Vector3::Zero();                    ///< the same in body axes; z is 0 [m/s]
   Vector3 omega_ib_b = Vector3::Zero();                ///< angular rate w.r.t. inertial space [rad/s]
-  Vector3 accel_bias_mps2 = Vector3::Zero();           ///< the sensor's own, in body axes [m/s²]
-  Vector3 gyro_bias_radps = Vector3::Zero();           ///< the sensor's own, in body axes [rad/s]
+  Vector3 accel_bias_mps2 = Vector3::Zero();           ///< the sensor's own, in its axes [m/s²]
+  Vector3 gyro_bias_radps = Vector3::Zero();           ///< the sensor's own, in its axes [rad/s]
   PerWheel wheel_rate_radps = {};                      ///< positive forward
   PerWheel wheel_radius_m = {};                        ///< true, constant
   PerWheel slip = {};                ///< slip ratio with the true radius, in [−1, 1]; 0 where the wheel stands

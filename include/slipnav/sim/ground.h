@@ -1,0 +1,25 @@
+#pragma once
+/// The kinds of ground one can drive on.
+
+#include <initializer_list>
+#include <string>
+
+#include "slipnav/sim/slip_model.h"
+#include "slipnav/sim/terrain.h"
+
+namespace slipnav::sim {
+
+struct GroundParams {
+  ReliefParams relief;
+  SlipParams slip;
+  double vibration_mps2 = 0.0;     ///< 1σ of specific force at 0.8 m/s that passes the IMU's block mean
+  double vibration_radps = 0.0;    ///< 1σ of angular rate at 0.8 m/s that passes the IMU's block mean
+};
+
+/// "paved", "unpaved", "gravel", "rough", and "rocking": strong roll and pitch without slip, to check mechanisations.
+inline constexpr std::initializer_list<const char*> kTerrainNames = {"paved", "unpaved", "gravel", "rough", "rocking"};
+
+/// Throws std::invalid_argument that names an unknown terrain.
+GroundParams groundByName(const std::string& name);
+
+}  // namespace slipnav::sim

@@ -1,0 +1,66 @@
+#pragma once
+/// Motion of the rover over the terrain, integrated in steps of about a millisecond.
+
+#include <Eigen/Core>
+
+#include "slipnav/sim/drive_train.h"
+#include "slipnav/sim/ground.h"
+#include "slipnav/sim/params.h"
+#include "slipnav/sim/truth_state.h"
+
+namespace slipnav::sim {
+
+/// Pose and rates at one instant. Axes: body forward-right-down; tangent plane east-north-up, fixed to the planet.
+struct Kinematics {
+  Vector3 position_enu_m = Vector3::Zero();
+  Matrix3 C_b_to_enu = Matrix3::Identity();
+  Vector3 v_eb_enu = Vector3::Zero();
+  Vector3 v_eb_b = Vector3::Zero();
+  Vector3 omega_eb_b = Vector3::Zero();
+  PerWheel wheel_angle_rad = {};
+  PerWheel wheel_rate_radps = {};
+  PerWheel slip = {};
+  double slip_angle_rad = 0.0;
+  double distance_m = 0.0;
+  bool standstill = true;
+};
+
+/// Slip ratio of the paper: 1 − v/(rω) when driving, rω/v − 1 when braking, within [−1, 1]; 0 at standstill.
+double slipRatio(double ground_speed_mps, double surface_speed_mps);
+
+class RoverMotion {
+ public:
+  RoverMotion(const VehicleParams& vehicle, const GroundParams& ground, double start_heading_rad, double straight_m,
+              std::uint64_t seed);
+
+  /// Moves on by one fine step under a command; at rest the state stays exactly as it is.
+  void advance(double forward_mps, double yaw_rate_radps, double dt_s);
+
+  const Kinematics& state() const { return state_; }
+  const PerWheel& wheelRadii() const { return radius_m_; }
+
+ private:
+  /// What is integrated over time.
+  enum Index { kEast, kNorth, kHeading, kTravel, kDistance, kWheelAngle, kIntegralCount = kWheelAngle + kWheelCount };
+  using Integrals = Eigen::Matrix<double, kIntegralCount, 1>;
+
+  void integrate(double dt_s);
+  void evaluate();
+  void setAttitude(const SurfacePoint& surface);
+  void moveBody(const SurfacePoint& surface, const Slippage& slippage);
+  void turnWheels(const Slippage& slippage, double yaw_rate_radps);
+
+  VehicleParams vehicle_;
+  Terrain terrain_;
+  SlipModel slip_model_;
+  PerWheel radius_m_;
+  SpeedRamp forward_;
+  SpeedRamp difference_;  ///< half the left wheels' speed minus the right ones'
+  Integrals value_ = Integrals::Zero();
+  Integrals rate_ = Integrals::Zero();
+  Integrals previous_rate_ = Integrals::Zero();
+  double previous_dt_s_ = 0.0;
+  Kinematics state_;
+};
+
+}  // namespace slipnav::sim

@@ -1,0 +1,94 @@
+#pragma once
+/// Errors of the IMU, the wheel encoders and the GNSS receivers.
+
+#include "slipnav/earth/local_frame.h"
+#include "slipnav/sensors.h"
+#include "slipnav/sim/ground.h"
+#include "slipnav/sim/inertial_truth.h"
+#include "slipnav/sim/params.h"
+#include "slipnav/sim/random.h"
+
+namespace slipnav::sim {
+
+/// Regular sampling instants of one sensor, as stamps.
+class SampleClock {
+ public:
+  SampleClock(Nanoseconds start, double rate_hz) : start_(start), rate_hz_(rate_hz) {}
+
+  Nanoseconds next() const { return start_ + fromSeconds(static_cast<double>(index_) / rate_hz_); }
+  void advance() { ++index_; }
+
+ private:
+  Nanoseconds start_;
+  double rate_hz_;
+  std::int64_t index_ = 1;
+};
+
+/// Noise, turn-on and in-run biases, scale factors, misalignment, vibration.
+class ImuModel {
+ public:
+  ImuModel(const ImuParams& params, const GroundParams& ground, std::uint64_t seed);
+
+  /// @param mean error-free output over the interval
+  /// @param speed_mps of the rover, for the vibration
+  ImuSample measure(const InertialMean& mean, Nanoseconds stamp, double dt_s, double speed_mps);
+
+  const Vector3& accelBias() const { return accel_.bias; }  ///< [m/s²]
+  const Vector3& gyroBias() const { return gyro_.bias; }    ///< [rad/s]
+
+ private:
+  /// The errors of three axes of one kind, SI.
+  struct Triad {
+    double noise_density = 0.0;      ///< per √Hz
+    double in_run_sigma = 0.0;
+    double vibration = 0.0;          ///< 1σ at 0.8 m/s
+    Vector3 scale = Vector3::Zero();
+    Vector3 turn_on_bias = Vector3::Zero();
+    Vector3 in_run_bias = Vector3::Zero();
+    Vector3 bias = Vector3::Zero();  ///< sum of both
+    Vector3 last_shake = Vector3::Zero();
+  };
+  Vector3 normal3(RandomStream& stream) const;
+  void turnOn(Triad& triad, double turn_on_sigma, double scale_sigma);
+  Vector3 corrupt(Triad& triad, const Vector3& value, double dt_s, double speed_mps);
+
+  ImuParams params_;
+  Matrix3 C_b_to_s_;  ///< true mounting: body to sensor axes
+  RandomStream stream_;
+  RandomStream vibration_stream_;
+  Triad accel_;
+  Triad gyro_;
+};
+
+/// Quantised wheel angles and the mean rates between them.
+class EncoderModel {
+ public:
+  EncoderModel(const EncoderParams& params, Nanoseconds start, std::uint64_t seed);
+
+  WheelSample measure(const PerWheel& angle_rad, Nanoseconds stamp);
+  /// Quantised angles of the last sample, from zero at the start [rad].
+  const PerWheel& angles() const { return last_angle_rad_; }
+
+ private:
+  double quantise(double angle_rad, std::size_t wheel) const;
+
+  double count_rad_;
+  PerWheel offset_counts_;  ///< where in a count each wheel stands at the start
+  PerWheel last_angle_rad_ = {};
+  Nanoseconds last_stamp_;
+};
+
+/// White-noise fixes of an antenna.
+class GnssModel {
+ public:
+  GnssModel(const GnssParams& params, const LocalFrame& frame, std::uint64_t seed, std::string_view purpose);
+
+  GnssFix measure(const Vector3& position_enu_m, const Matrix3& C_b_to_enu, Nanoseconds stamp);
+
+ private:
+  GnssParams params_;
+  LocalFrame frame_;
+  RandomStream stream_;
+};
+
+}  // namespace slipnav::sim

@@ -1,0 +1,75 @@
+#pragma once
+/// How the ground gives way under the wheels.
+
+#include <vector>
+
+#include "slipnav/sim/correlated_process.h"
+#include "slipnav/sim/random.h"
+#include "slipnav/sim/truth_state.h"
+
+namespace slipnav::sim {
+
+/// Slip of one kind of ground. Ratios are parts of the wheel's surface speed.
+struct SlipParams {
+  double mean = 0.0;                  ///< persistent part on the level
+  double mean_spread = 0.0;           ///< 1σ between drives, relative to `mean`
+  double climb = 0.0;                 ///< per sine of the slope along the track: positive uphill, negative downhill
+  double sinkage = 0.0;               ///< per squared sine of the slope along the track: both ways
+  double fast = 0.0;                  ///< 1σ of the part with a correlation of about a second
+  double slow = 0.0;                  ///< 1σ of the part with a correlation of about fifteen seconds
+  double wheel_scatter = 0.0;         ///< 1σ of each wheel's own speed
+  double impulses_per_m = 0.0;
+  double impulse_min = 0.0;           ///< peak of an impulse
+  double impulse_max = 0.0;
+  double side_slip_deg = 0.0;         ///< 1σ of the correlated slip angle
+  double side_slip_per_slope = 0.0;   ///< slip angle [rad] per sine of the cross slope
+  double track_factor = 1.0;          ///< effective over geometric track when the rover turns (scrub)
+  double track_factor_spread = 0.0;   ///< 1σ along the way
+};
+
+/// Where the rover is, as far as slip is concerned.
+struct Footing {
+  double travel_m = 0.0;      ///< of the wheels' surface, never decreasing
+  double sin_climb = 0.0;     ///< sine of the slope in the direction of motion, positive uphill
+  double sin_cross = 0.0;     ///< sine of the slope across, positive when the right side is low
+  double looseness = 0.0;     ///< factor on all slip
+};
+
+/// What the ground does to the commanded motion.
+struct Slippage {
+  double left = 0.0;          ///< part of the left wheels' surface speed by which that side falls behind
+  double right = 0.0;
+  double lateral = 0.0;       ///< sideways over forward speed, positive to the right
+  double track_factor = 1.0;
+  PerWheel spin_up = {};      ///< excess of each wheel's speed over its command, relative
+};
+
+class SlipModel {
+ public:
+  SlipModel(const SlipParams& params, std::uint64_t seed);
+
+  Slippage at(const Footing& footing);
+
+ private:
+  /// One short loss of grip. Shares: how much of the peak each side of the body feels, how much each wheel spins up.
+  struct Impulse {
+    double start_m;
+    double length_m;
+    double peak;
+    double left_share;
+    double right_share;
+    PerWheel spin_share;
+  };
+  Impulse drawImpulse();
+  void addImpulses(double travel_m, Slippage& slippage);
+
+  SlipParams params_;
+  double mean_;
+  CorrelatedProcess fast_left_, fast_right_, fast_both_, slow_both_, lateral_, track_;
+  std::vector<CorrelatedProcess> wheel_;
+  RandomStream impulse_stream_;
+  double next_impulse_m_;
+  std::vector<Impulse> active_;
+};
+
+}  // namespace slipnav::sim

@@ -1,0 +1,166 @@
+#include "slipnav/sim/simulator.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slipnav/earth/local_frame.h"
+#include "slipnav/sim/driver.h"
+#include "slipnav/sim/ground.h"
+#include "slipnav/sim/inertial_truth.h"
+#include "slipnav/sim/random.h"
+#include "slipnav/sim/rover_motion.h"
+#include "slipnav/sim/sensor_models.h"
+
+namespace slipnav::sim {
+namespace {
+
+constexpr double kMaxFineStep_s = 1e-3;
+constexpr int kMinFineSteps = 20;
+/// Jitter never moves a sampling instant by more than this part of the interval.
+constexpr double kMaxJitterPart = 0.4;
+
+Geodetic startPosition(const SimulatorParams& params) {
+  return {degToRad(params.start_latitude_deg), degToRad(params.start_longitude_deg), params.start_height_m};
+}
+
+std::uint64_t seedOf(const SimulatorParams& params) { return static_cast<std::uint64_t>(params.seed); }
+
+/// Straight line between two fine steps: for sensors that sample inside one.
+Kinematics interpolate(const Kinematics& a, const Kinematics& b, double part) {
+  Kinematics between = b;
+  between.position_enu_m = (1.0 - part) * a.position_enu_m + part * b.position_enu_m;
+  between.C_b_to_enu = (1.0 - part) * a.C_b_to_enu + part * b.C_b_to_enu;
+  for (std::size_t i = 0; i < kWheelCount; ++i) {
+    between.wheel_angle_rad[i] = (1.0 - part) * a.wheel_angle_rad[i] + part * b.wheel_angle_rad[i];
+  }
+  return between;
+}
+
+}  // namespace
+
+struct RoverSimulator::Parts {
+  Parts(const SimulatorParams& p, const Planet& planet);
+
+  Nanoseconds nextImuStamp();
+  void sampleOthers(const Kinematics& before, Nanoseconds from, Nanoseconds to, Measurements& out);
+  void updateTruth(Nanoseconds stamp);
+
+  SimulatorParams params;
+  GroundParams ground;
+  LocalFrame frame;
+  Nanoseconds start;
+  RoverMotion motion;
+  InertialTruth inertial;
+  ImuModel imu;
+  EncoderModel encoder;
+  GnssModel gps;
+  GnssModel truth_gnss;
+  SampleClock imu_clock, encoder_clock, gps_clock, truth_clock;
+  RandomStream jitter_stream;
+  TruthState truth;
+};
+
+RoverSimulator::Parts::Parts(const SimulatorParams& p, const Planet& planet)
+    : params(p),
+      ground(groundByName(p.terrain)),
+      frame(planet, startPosition(p)),
+      start(fromSeconds(p.start_time_s)),
+      motion(p.vehicle, ground, Driver::routeOf(p).startHeading(), p.drive.initial_straight_m, seedOf(p)),
+      inertial(planet, frame, {p.imu.lever_arm_x_m, p.imu.lever_arm_y_m, p.imu.lever_arm_z_m}, motion.state()),
+      imu(p.imu, ground, seedOf(p)),
+      encoder(p.encoder, start, seedOf(p)),
+      gps(p.gps, frame, seedOf(p), "gps"),
+      truth_gnss(p.truth, frame, seedOf(p), "truth gnss"),
+      imu_clock(start, p.imu.rate_hz),
+      encoder_clock(start, p.encoder.rate_hz),
+      gps_clock(start, p.gps.rate_hz),
+      truth_clock(start, p.truth.rate_hz),
+      jitter_stream(seedOf(p), "imu jitter") {
+  updateTruth(start);
+}
+
+Nanoseconds RoverSimulator::Parts::nextImuStamp() {
+  const double limit_s = kMaxJitterPart / params.imu.rate_hz;
+  const double jitter_s = std::clamp(params.imu.stamp_jitter_s * jitter_stream.normal(), -limit_s, limit_s);
+  const Nanoseconds stamp = imu_clock.next() + fromSeconds(jitter_s);
+  imu_clock.advance();
+  return stamp;
+}
+
+void RoverSimulator::Parts::sampleOthers(const Kinematics& before, Nanoseconds from, Nanoseconds to,
+                                         Measurements& out) {
+  const auto at = [&](Nanoseconds stamp) {
+    return interpolate(before, motion.state(), static_cast<double>(stamp - from) / static_cast<double>(to - from));
+  };
+  if (const Nanoseconds stamp = encoder_clock.next(); stamp <= to) {
+    out.wheel = encoder.measure(at(stamp).wheel_angle_rad, stamp);
+    out.wheel_angle_rad = encoder.angles();
+    encoder_clock.advance();
+  }
+  if (const Nanoseconds stamp = gps_clock.next(); stamp <= to) {
+    const Kinematics state = at(stamp);
+    out.gps = gps.measure(state.position_enu_m, state.C_b_to_enu, stamp);
+    gps_clock.advance();
+  }
+  if (const Nanoseconds stamp = truth_clock.next(); stamp <= to) {
+    const Kinematics state = at(stamp);
+    out.truth = truth_gnss.measure(state.position_enu_m, state.C_b_to_enu, stamp);
+    truth_clock.advance();
+  }
+}
+
+void RoverSimulator::Parts::updateTruth(Nanoseconds stamp) {
+  const Kinematics& state = motion.state();
+  truth.stamp = stamp;
+  truth.position_enu_m = state.position_enu_m;
+  truth.position = frame.toGeodetic(state.position_enu_m);
+  const Matrix3 C_enu_to_n = frame.C_n_to_enu(truth.position).transpose();
+  const Matrix3 C_b_to_n = C_enu_to_n * state.C_b_to_enu;
+  truth.q_b_to_n = Quaternion(C_b_to_n).normalized();
+  truth.v_eb_n = C_enu_to_n * state.v_eb_enu;
+  truth.v_eb_b = state.v_eb_b;
+  truth.omega_ib_b = state.omega_eb_b + state.C_b_to_enu.transpose() * inertial.omega_ie_enu();
+  truth.accel_bias_mps2 = imu.accelBias();
+  truth.gyro_bias_radps = imu.gyroBias();
+  truth.wheel_rate_radps = state.wheel_rate_radps;
+  truth.wheel_radius_m = motion.wheelRadii();
+  truth.slip = state.slip;
+  truth.slip_angle_rad = state.slip_angle_rad;
+  truth.standstill = state.standstill;
+  truth.distance_m = state.distance_m;
+}
+
+RoverSimulator::RoverSimulator(const SimulatorParams& params, const Planet& planet) {
+  params.validate();
+  parts_ = std::make_unique<Parts>(params, planet);
+}
+
+RoverSimulator::~RoverSimulator() = default;
+RoverSimulator::RoverSimulator(RoverSimulator&&) noexcept = default;
+RoverSimulator& RoverSimulator::operator=(RoverSimulator&&) noexcept = default;
+
+Measurements RoverSimulator::step(const Command& command) {
+  Parts& p = *parts_;
+  Measurements out;
+  const Nanoseconds begin = p.truth.stamp;
+  const Nanoseconds end = p.nextImuStamp();
+  const double interval_s = toSeconds(end - begin);
+  const int count = std::max(kMinFineSteps, static_cast<int>(std::ceil(interval_s / kMaxFineStep_s - 1e-6)));
+  const double dt_s = interval_s / count;
+  Nanoseconds from = begin;
+  for (int i = 1; i <= count; ++i) {
+    const Nanoseconds to = begin + (end - begin) * i / count;
+    const Kinematics before = p.motion.state();
+    p.motion.advance(command.forward_mps, command.yaw_rate_radps, dt_s);
+    p.inertial.add(p.motion.state(), dt_s);
+    p.sampleOthers(before, from, to, out);
+    from = to;
+  }
+  out.imu = p.imu.measure(p.inertial.finish(), end, interval_s, p.motion.state().v_eb_b.norm());
+  p.updateTruth(end);
+  return out;
+}
+
+const TruthState& RoverSimulator::truth() const { return parts_->truth; }
+
+}  // namespace slipnav::sim
