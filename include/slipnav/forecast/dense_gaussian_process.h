@@ -1,0 +1,47 @@
+#pragma once
+/// Exact Gaussian process regression by Cholesky factorisation: the reference, O(N³) per likelihood.
+///
+/// Source: Rasmussen & Williams, algorithm 2.1 and equation 5.9.
+
+#include "slipnav/forecast/gaussian_process.h"
+#include "slipnav/forecast/kernel.h"
+
+namespace slipnav {
+
+class DenseGaussianProcess : public GaussianProcess {
+ public:
+  /// @param latent the kernel of f; its parameters are overwritten by those of each call
+  explicit DenseGaussianProcess(KernelPtr latent);
+
+  Eigen::Index parameterCount() const override { return total_->parameterCount(); }
+  void setSamples(const Eigen::VectorXd& times, const Eigen::VectorXd& values) override;
+  double negativeLogLikelihood(const Eigen::VectorXd& log_parameters, Eigen::VectorXd* gradient) override;
+  double condition(const Eigen::VectorXd& log_parameters) override;
+  LatentPrediction predict(const Eigen::VectorXd& times) const override;
+  Eigen::MatrixXd predictCovariance(const Eigen::VectorXd& times) const override;
+
+  /// What had to be added to the diagonal to make the last covariance positive definite in floating point, relative to
+  /// its mean; zero for every well-posed one.
+  double relativeJitter() const { return relative_jitter_; }
+
+ private:
+  void factorize();
+  void fillCovariance();
+  void likelihoodGradient(Eigen::VectorXd& gradient);
+  void requireConditioned() const;
+  double crossCovariance(double time, Kernel::Out out) const;  ///< with the samples; returns the prior variance
+
+  KernelPtr latent_;
+  KernelPtr total_;  ///< latent plus white noise
+  Eigen::VectorXd times_;
+  Eigen::VectorXd values_;
+  Eigen::MatrixXd factor_;          ///< lower triangle: covariance of the samples, then its Cholesky factor L
+  Eigen::MatrixXd inverse_factor_;  ///< L⁻¹
+  Eigen::MatrixXd precision_;       ///< lower triangle: inverse of the covariance of the samples
+  Eigen::VectorXd alpha_;           ///< K⁻¹ y
+  Eigen::VectorXd weights_;         ///< a column of α αᵀ − K⁻¹
+  double relative_jitter_ = 0.0;
+  bool conditioned_ = false;
+};
+
+}  // namespace slipnav
