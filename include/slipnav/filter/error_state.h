@@ -1,0 +1,55 @@
+#pragma once
+/// Layout of the error state and how an estimated error is taken out of the total state.
+///
+/// One sign for the whole code: error = estimate − truth. The attitude error δψ is the small rotation, resolved in
+/// north-east-down, with C_b_to_n(estimate) = (I + [δψ×]) C_b_to_n(truth); position error is in metres.
+
+#include "slipnav/earth/planet.h"
+#include "slipnav/ins/nav_state.h"
+#include "slipnav/types.h"
+
+namespace slipnav {
+
+/// First index of each block of the error state.
+enum ErrorIndex : int {
+  kAttitude = 0,   ///< δψ_nb^n [rad]
+  kVelocity = 3,   ///< δv_eb^n [m/s]
+  kPosition = 6,   ///< δp, north-east-down [m]
+  kAccelBias = 9,  ///< [m/s²]
+  kGyroBias = 12,  ///< [rad/s]
+  kNavStates = 15,
+  kWheelScale = 15,  ///< relative error of the wheel radii; constant
+  kSlowSlip = 16,    ///< slip ratio that persists over tens of seconds; Gauss–Markov
+  kFastSlip = 17,    ///< slip ratio that changes within seconds; Gauss–Markov
+  kSideSlip = 18,    ///< tangent of the angle from the body's x axis to its course over ground; Gauss–Markov
+  kMountPitch = 19,  ///< pitch of the IMU's axes against the vehicle's [rad]; constant
+  kMountYaw = 20,    ///< yaw of the IMU's axes against the vehicle's [rad]; constant
+  kYawScale = 21,    ///< scale factor error of the gyro about body z; considered, never estimated
+  kErrorStates = 22
+};
+
+using ErrorVector = Eigen::Matrix<double, kErrorStates, 1>;
+using ErrorCovariance = Eigen::Matrix<double, kErrorStates, kErrorStates>;
+using NavCovariance = Eigen::Matrix<double, kNavStates, kNavStates>;
+
+/// Estimates of what stands behind the fifteen navigation states: the vehicle and its ground.
+struct VehicleState {
+  double wheel_scale = 0.0;
+  double slow_slip = 0.0;
+  double fast_slip = 0.0;
+  double side_slip = 0.0;
+  double mount_pitch_rad = 0.0;
+  double mount_yaw_rad = 0.0;
+};
+
+/// Takes an estimated error out of the navigation state: truth = estimate − error.
+void subtractError(const Planet& planet, const ErrorVector& error, NavState& state);
+void subtractError(const ErrorVector& error, VehicleState& state);
+
+/// Position error [m], north-east-down, of `estimate` against `truth` (small differences).
+Vector3 positionDifference(const Planet& planet, const Geodetic& estimate, const Geodetic& truth);
+
+/// Error of `estimate` against `truth` in the layout above; vehicle states are zero.
+ErrorVector errorBetween(const Planet& planet, const NavState& estimate, const NavState& truth);
+
+}  // namespace slipnav

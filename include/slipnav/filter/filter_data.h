@@ -1,0 +1,70 @@
+#pragma once
+/// What goes into the filter beside mechanised steps, and what comes out of it.
+
+#include <array>
+#include <cstdint>
+
+#include "slipnav/filter/error_state.h"
+#include "slipnav/measurement/body_motion.h"
+#include "slipnav/measurement/wheel_geometry.h"
+#include "slipnav/sensors.h"
+
+namespace slipnav {
+
+/// Where an estimate starts.
+struct InitialState {
+  NavState nav;
+  VehicleState vehicle;
+  ErrorCovariance P = ErrorCovariance::Identity();
+  Geodetic origin;  ///< of the map frame
+};
+
+/// Mean wheel motion over the interval that ends at `stamp`, whatever message it came in.
+struct WheelMotion {
+  Nanoseconds stamp = 0;
+  PlanarMotion motion;
+  double largest_speed_mps = 0.0;  ///< of any wheel, magnitude
+  std::size_t count = 0;           ///< number of wheels below; 0 when only a speed is known
+  std::array<double, kMaxWheels> circumferential_mps = {};
+};
+
+WheelMotion toWheelMotion(const WheelGeometry& geometry, const WheelSample& sample);
+WheelMotion toWheelMotion(const SpeedSample& sample);
+
+/// The kinds of measurement that are gated and counted apart.
+enum Component : int {
+  kForwardSpeed = 0,
+  kYawRate,
+  kLateral,
+  kVertical,
+  kZeroVelocity,
+  kZeroRate,
+  kFixPosition,
+  kComponents
+};
+
+const char* componentName(Component component);
+
+/// What became of one kind of measurement.
+struct ComponentStatus {
+  std::uint64_t accepted = 0;
+  std::uint64_t rejected = 0;
+  double nis_sum = 0.0;   ///< of the accepted ones, each divided by its degrees of freedom
+  double last_nis = 0.0;  ///< likewise, accepted or not
+  Nanoseconds rejected_since = 0;  ///< 0 while the last one was accepted
+};
+
+/// The filter's answer for the end of one step.
+struct Estimate {
+  std::uint64_t sequence = 0;
+  NavState nav;
+  Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean specific force of the step [m/s²]
+  Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean rate of the step [rad/s]
+  VehicleState vehicle;
+  bool stationary = false;
+  bool has_wheels = false;  ///< a wheel sample ended in this step
+  WheelMotion wheels;       ///< the last one
+  BodyMotion motion;        ///< means over its interval, vehicle reference point, IMU axes
+};
+
+}  // namespace slipnav

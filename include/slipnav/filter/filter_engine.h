@@ -1,0 +1,96 @@
+#pragma once
+/// The error-state extended Kalman filter: owns the covariance, consumes mechanised steps in order, applies wheel,
+/// non-holonomic and zero updates at the stamps of the wheel samples, and tells the mechanisation what to correct.
+///
+/// A step is processed only when it is certain which wheel samples lie inside it: when a wheel sample at or after its
+/// end has come, or when the IMU has gone on for `max_wait_s` without one. What is computed therefore depends on the
+/// stamps, not on the order of arrival.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "slipnav/container/ring_queue.h"
+#include "slipnav/filter/error_dynamics.h"
+#include "slipnav/filter/filter_data.h"
+#include "slipnav/filter/filter_params.h"
+#include "slipnav/filter/gated_update.h"
+#include "slipnav/ins/ins_engine.h"
+#include "slipnav/measurement/motion_average.h"
+#include "slipnav/measurement/position_fix.h"
+#include "slipnav/slip/stationary_detector.h"
+
+namespace slipnav {
+
+class FilterEngine {
+ public:
+  using EstimateSink = std::function<void(const Estimate&, const ErrorCovariance&)>;
+
+  FilterEngine(const Planet& planet, const FilterSetup& setup);
+
+  /// Starts anew from `initial`. Wheel samples that have come already and are later than it are kept.
+  void initialise(const InitialState& initial);
+  /// Drops everything.
+  void reset();
+  bool isInitialised() const { return initialised_; }
+
+  /// Takes a step; one of an old epoch, or out of sequence, is ignored.
+  void push(const InsStep& step);
+  /// Takes a wheel sample; false when it is not finite, repeated, or lies before what has been processed.
+  bool push(const WheelMotion& wheels);
+  /// Takes a position fix, used while initialising; false as above.
+  bool push(const PositionFix& fix);
+
+  /// Says that no wheel sample up to `stamp` is still to come.
+  void assumeCompleteUpTo(Nanoseconds stamp);
+
+  /// Processes steps in order until none is certain, or until a measurement corrects the state. Then the correction has
+  /// to reach the mechanisation, whose new steps come back by push().
+  std::optional<Correction> advance(const EstimateSink& sink);
+
+  const ErrorCovariance& covariance() const { return P_; }
+  const NavState& state() const { return state_; }
+  const VehicleState& vehicle() const { return vehicle_; }
+  const ErrorTransition& lastTransition() const { return transition_; }
+  const ComponentStatus& status(Component component) const { return update_.status(component); }
+  const ErrorDynamics& dynamics() const { return dynamics_; }
+
+ private:
+  bool isCertain(const InsStep& step) const;
+  Vector3 propagate(const InsStep& step);
+  Vector3 referenceVelocity(const InsStep& step) const;
+  void inflateForGap(double gap_s);
+  bool applyWheels(const InsStep& step, const Vector3& v_mean_b);
+  bool applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion);
+  MeasurementSet movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const;
+  MeasurementSet restingMeasurements(const BodyMotion& motion) const;
+  bool applyFixes();
+  bool update(MeasurementSet set);
+
+  Planet planet_;
+  FilterSetup setup_;
+  ErrorDynamics dynamics_;
+  StationaryDetector detector_;
+  GatedUpdate update_;
+  bool use_wheel_;
+  bool use_nonholonomic_;
+  bool use_zupt_;
+  bool use_zaru_;
+
+  bool initialised_ = false;
+  NavState state_;
+  VehicleState vehicle_;
+  ErrorCovariance P_ = ErrorCovariance::Identity();
+  ErrorTransition transition_;
+  std::uint64_t next_sequence_ = 0;
+  std::uint32_t epoch_ = 0;
+
+  RingQueue<InsStep> steps_;
+  RingQueue<WheelMotion> wheels_;  ///< not yet applied, by stamp
+  RingQueue<PositionFix> fixes_;   ///< likewise
+  Nanoseconds newest_wheels_ = 0;
+  MotionAverage average_;          ///< over the wheel interval that is open
+  Estimate estimate_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,42 @@
+#pragma once
+/// Everything the filter is made from.
+
+#include <string>
+#include <vector>
+
+#include "slipnav/config/parameter_visitor.h"
+#include "slipnav/filter/error_dynamics.h"
+#include "slipnav/measurement/nonholonomic.h"
+#include "slipnav/measurement/wheel_odometry.h"
+#include "slipnav/measurement/zero_motion.h"
+#include "slipnav/slip/stationary_detector.h"
+
+namespace slipnav {
+
+struct FilterParams {
+  std::vector<std::string> updates = {"wheel", "nonholonomic", "zupt", "zaru"};
+  double gate_alpha = 0.001;
+  double zero_velocity_gate_alpha = 1e-6;
+  double max_rejection_s = 3.0;
+  double max_wait_s = 1.0;
+  double max_wheel_interval_s = 0.5;
+  double gap_rate_std_deg_per_s = 10.0;
+  double gap_accel_std_mps2 = 0.5;
+  void visit(ParameterVisitor& v);
+
+  bool uses(const std::string& update) const;
+};
+
+struct FilterSetup {
+  FilterParams filter;
+  ImuNoiseParams imu;
+  VehicleModelParams vehicle;
+  WheelOdometryParams wheel;
+  NonholonomicParams nonholonomic;
+  ZeroMotionParams zero;
+  StationaryParams stationary;
+  Vector3 lever_imu_to_reference_b = Vector3::Zero();  ///< from the IMU to the vehicle's centre of turn [m]
+  Vector3 lever_imu_to_antenna_b = Vector3::Zero();    ///< from the IMU to the antenna of gps/fix [m]
+};
+
+}  // namespace slipnav

@@ -1,0 +1,49 @@
+#pragma once
+/// Several measurements of one instant: each passes its own gate, all that pass update the state together.
+
+#include <array>
+#include <optional>
+
+#include "slipnav/filter/filter_data.h"
+#include "slipnav/filter/filter_params.h"
+#include "slipnav/filter/kalman_update.h"
+
+namespace slipnav {
+
+/// Up to four measurements of one instant.
+class MeasurementSet {
+ public:
+  struct Block {
+    Component component = kForwardSpeed;
+    Measurement measurement{1};
+  };
+
+  void add(Component component, const Measurement& measurement) { blocks_[size_++] = {component, measurement}; }
+  std::size_t size() const { return size_; }
+  Block& operator[](std::size_t i) { return blocks_[i]; }
+
+ private:
+  std::array<Block, 4> blocks_;
+  std::size_t size_ = 0;
+};
+
+class GatedUpdate {
+ public:
+  explicit GatedUpdate(const FilterParams& params);
+
+  /// @return the estimated error when at least one measurement passed; P is updated then, and untouched otherwise
+  std::optional<ErrorVector> apply(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P);
+
+  const ComponentStatus& status(Component component) const { return status_[component]; }
+
+ private:
+  bool passes(MeasurementSet::Block& block, Nanoseconds stamp, const ErrorCovariance& P);
+  double limit(const MeasurementSet::Block& block) const;
+
+  double max_rejection_s_;
+  std::array<double, kMaxMeasurementRows + 1> gate_;       ///< by degrees of freedom
+  std::array<double, kMaxMeasurementRows + 1> zero_gate_;  ///< the same for zero velocity and zero rate
+  std::array<ComponentStatus, kComponents> status_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,41 @@
+#pragma once
+/// One measurement update for every model: Joseph form with consider states (Groves 3.2.5; Schmidt 1966).
+
+#include <optional>
+
+#include "slipnav/filter/error_state.h"
+
+namespace slipnav {
+
+inline constexpr int kMaxMeasurementRows = 6;
+
+/// A linearised measurement. The prediction comes from the estimate, and error = estimate − truth, hence
+/// residual = measured − predicted = −H · error + noise.
+struct Measurement {
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxMeasurementRows, 1>;
+  using Jacobian =
+      Eigen::Matrix<double, Eigen::Dynamic, kErrorStates, Eigen::RowMajor, kMaxMeasurementRows, kErrorStates>;
+
+  /// @param rows 1 … kMaxMeasurementRows; all entries zero
+  explicit Measurement(int rows);
+
+  Vector residual;  ///< measured − predicted
+  Jacobian H;       ///< ∂(predicted)/∂(state)
+  Vector variance;  ///< of the measurement noise, which is uncorrelated between rows
+};
+
+/// rᵀ (H P Hᵀ + R)⁻¹ r, chi-square distributed with as many degrees of freedom as rows when the filter is consistent.
+/// Nothing when the residual is not finite or the innovation covariance not positive definite.
+std::optional<double> normalisedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P);
+
+/// Updates P and returns the estimated error, to be taken out of the state. Nothing, and P untouched, when the residual
+/// is not finite or the innovation covariance not positive definite.
+///
+/// The gain of the consider state kYawScale is zero; the Joseph form holds for any gain.
+std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P);
+
+/// 1 − alpha quantile of the chi-square distribution with `degrees` degrees of freedom.
+/// Throws std::invalid_argument unless degrees ≥ 1 and 0 < alpha < 1.
+double chiSquareQuantile(int degrees, double alpha);
+
+}  // namespace slipnav

@@ -1,0 +1,105 @@
+#pragma once
+/// Keeps the nominal state: checks and buffers IMU samples, mechanises them one by one, and goes back to where a
+/// correction belongs. Every result depends on the stamps and values of the samples alone.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipnav/config/parameter_visitor.h"
+#include "slipnav/ins/strapdown.h"
+#include "slipnav/sensors.h"
+
+namespace slipnav {
+
+struct ImuInputParams {
+  std::string sampling = "mean";
+  double max_specific_force_mps2 = 200.0;
+  double max_rate_deg_per_s = 2000.0;
+  double gap_factor = 2.5;
+  double max_bridged_gap_s = 1.0;
+  void visit(ParameterVisitor& v);
+};
+
+/// One mechanised IMU interval.
+struct InsStep {
+  std::uint64_t sequence = 0;  ///< counts IMU intervals since the initial state
+  std::uint32_t epoch = 0;     ///< counts corrections; a step of an older epoch is void
+  Nanoseconds start = 0;
+  NavState state;                        ///< at the end of the interval
+  Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean over the interval [m/s²]
+  Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean over the interval [rad/s]
+  double gap_s = 0.0;                    ///< time without samples inside the interval
+};
+
+/// The state at the end of step `sequence` as the filter corrected it.
+struct Correction {
+  std::uint64_t sequence = 0;
+  std::uint32_t epoch = 0;  ///< epoch of all steps that follow from it
+  NavState state;
+};
+
+enum class ImuVerdict {
+  kAccepted,
+  kAfterGap,      ///< accepted; samples are missing before it
+  kNotFinite,     ///< refused: NaN or infinite
+  kOutOfRange,    ///< refused: beyond what the sensor can measure
+  kNotNewer,      ///< refused: repeated stamp, or older than the newest by less than a second
+  kTimeWentBack,  ///< refused: older by a second or more; the source has started anew
+};
+
+class InsEngine {
+ public:
+  InsEngine(const Planet& planet, const ImuInputParams& params);
+
+  /// Drops everything, the initial state and the samples.
+  void reset();
+
+  /// Starts mechanising from `state`; samples up to its stamp are dropped, later ones that are buffered are used.
+  void initialise(const NavState& state);
+  bool isInitialised() const { return initialised_; }
+
+  /// Checks and buffers a sample.
+  ImuVerdict push(const ImuSample& sample);
+
+  /// Mechanises the next buffered interval; nothing when all are done or no initial state is known.
+  std::optional<InsStep> step();
+
+  /// Goes back to the step the correction is for; step() then mechanises again what followed it.
+  /// @return false when that step is no longer, or not yet, there
+  bool correct(const Correction& correction);
+
+  /// Stamp of the newest accepted sample, 0 before the first.
+  Nanoseconds newestStamp() const { return newest_stamp_; }
+  const Planet& planet() const { return strapdown_.planet(); }
+
+ private:
+  struct Slot {
+    Nanoseconds end;
+    ImuInterval interval;
+    double gap_s;
+    NavState state;  ///< at the end, once mechanised
+  };
+
+  Slot& slot(std::uint64_t sequence) { return ring_[sequence & (ring_.size() - 1)]; }
+  void append(const Slot& slot);
+  void makeRoom();
+  void dropUpTo(Nanoseconds stamp);
+
+  Strapdown strapdown_;
+  ImuInputParams params_;
+  std::vector<Slot> ring_;         ///< power of two in size; holds [first_, end_)
+  std::uint64_t first_ = 0;        ///< oldest buffered sequence
+  std::uint64_t next_ = 0;         ///< next to be mechanised
+  std::uint64_t end_ = 0;          ///< one past the newest buffered
+  std::uint64_t base_ = 0;         ///< ring sequence that counts as step 0
+  std::uint32_t epoch_ = 0;
+  bool initialised_ = false;
+  NavState initial_;
+  Nanoseconds newest_stamp_ = 0;
+  ImuSample newest_;
+  double period_s_ = 0.0;          ///< running mean of the regular sample interval
+};
+
+}  // namespace slipnav

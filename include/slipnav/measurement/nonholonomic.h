@@ -1,0 +1,31 @@
+#pragma once
+/// Non-holonomic constraints: a wheeled vehicle moves neither sideways nor off the ground (Groves 15.4.1; the paper's
+/// equations for z_RC), with side slip and the mounting error of the IMU as states.
+
+#include "slipnav/config/parameter_visitor.h"
+#include "slipnav/filter/kalman_update.h"
+#include "slipnav/measurement/body_motion.h"
+
+namespace slipnav {
+
+struct NonholonomicParams {
+  double lateral_std_mps = 0.02;
+  double lateral_turn_std_m = 0.1;
+  double vertical_std_mps = 0.02;
+  double vertical_turn_std_m = 0.1;
+  double max_side_slip_deg = 15.0;
+  void visit(ParameterVisitor& v);
+};
+
+/// Lateral speed of the reference point: v_y + ψ_m v_x − tan β v_x = 0.
+Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavState& state,
+                               const VehicleState& vehicle, const Vector3& lever_b);
+
+/// Vertical speed of the reference point: v_z − θ_m v_x = 0.
+Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavState& state,
+                                const VehicleState& vehicle, const Vector3& lever_b);
+
+/// Slip angle β = atan2(v_y, v_x) of the reference point in vehicle axes, forward-right-down [rad].
+double slipAngle(const Vector3& v_eb_b, const VehicleState& vehicle);
+
+}  // namespace slipnav

@@ -1,0 +1,30 @@
+#pragma once
+/// Wheel speed and wheel heading rate as measurements of the error state (Groves 16.3), with slip as states.
+
+#include "slipnav/config/parameter_visitor.h"
+#include "slipnav/filter/kalman_update.h"
+#include "slipnav/measurement/body_motion.h"
+#include "slipnav/measurement/wheel_geometry.h"
+
+namespace slipnav {
+
+struct WheelOdometryParams {
+  double speed_std_mps = 0.01;
+  double slip_noise_std = 0.03;
+  double yaw_rate_std_deg_per_s = 3.0;
+  double yaw_rate_scale_std = 0.3;
+  double scrub_factor = 1.0;
+  void visit(ParameterVisitor& v);
+};
+
+/// Forward speed: u (1 − κ − s_slow − s_fast) = v_x, with u the mean circumferential speed of the wheels.
+/// @param motion means over the odometry interval; @param lever_b IMU to reference point
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
+                                    const BodyMotion& motion, const NavState& state, const VehicleState& vehicle,
+                                    const Vector3& lever_b);
+
+/// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z.
+Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps,
+                               const BodyMotion& motion);
+
+}  // namespace slipnav

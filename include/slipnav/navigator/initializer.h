@@ -1,0 +1,97 @@
+#pragma once
+/// Finds where to start: levels, finds the heading, and hands over state and covariance at a definite stamp.
+///
+/// Sources:
+///   gnss    rest (levelling, gyro bias), then a short straight drive under satellite positions; what is recorded is
+///           run through the filter itself, so that the covariance handed over holds every correlation
+///   given   position and heading from the parameters, levelled from the first seconds
+///   motion  position zero, heading from the parameters, levelled from the first seconds even when moving
+///   truth   pose handed in from outside, levelled likewise
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipnav/filter/filter_data.h"
+#include "slipnav/filter/filter_params.h"
+#include "slipnav/ins/ins_engine.h"
+#include "slipnav/measurement/position_fix.h"
+#include "slipnav/slip/stationary_detector.h"
+
+namespace slipnav {
+
+struct InitializationParams {
+  std::string source = "gnss";
+  double heading_deg = 0.0;
+  double heading_std_deg = 1.0;
+  double latitude_deg = 39.65;
+  double longitude_deg = -79.9;
+  double height_m = 300.0;
+  double position_std_m = 0.01;
+  double min_rest_s = 5.0;
+  double max_rest_s = 60.0;
+  double drive_distance_m = 10.0;
+  double levelling_window_s = 10.0;
+  double moving_level_std_deg = 1.0;
+  double moving_speed_std_mps = 0.1;
+  void visit(ParameterVisitor& v);
+};
+
+class Initializer {
+ public:
+  Initializer(const Planet& planet, const InitializationParams& params, const ImuInputParams& imu,
+              const FilterSetup& setup);
+
+  /// Forgets all samples.
+  void reset();
+
+  void push(const ImuSample& sample);
+  void push(const WheelMotion& wheels);
+  void push(const PositionFix& fix);
+  /// The state for the source `truth`. Without attitude, it is levelled and takes the configured heading.
+  void setTruth(const NavState& truth, bool has_attitude);
+
+  /// The initial state once it can be known; ask after every sample.
+  std::optional<InitialState> result() const;
+
+  /// What it is waiting for, for people.
+  std::string progress() const;
+
+ private:
+  /// The newest period of standstill.
+  struct Rest {
+    Nanoseconds begin = 0;
+    Nanoseconds end = 0;
+    bool over = false;
+  };
+
+  void trackRest(const WheelMotion& wheels);
+  void forgetBefore(Nanoseconds stamp);
+  bool restIsLongEnough() const;
+  std::optional<InitialState> fromDrive() const;
+  std::optional<InitialState> fromWindow() const;
+  std::optional<InitialState> fromTruth() const;
+  std::optional<Nanoseconds> firstImuStampFrom(Nanoseconds stamp) const;
+  std::optional<PositionFix> startFix(Nanoseconds begin) const;
+  std::optional<PositionFix> endFix(const PositionFix& start) const;
+  double headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const;
+  ImuSample mean(Nanoseconds begin, Nanoseconds end) const;
+  double speedAt(Nanoseconds stamp) const;
+  InitialState levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const;
+  InitialState runFilter(const InitialState& start, Nanoseconds until) const;
+
+  Planet planet_;
+  InitializationParams params_;
+  ImuInputParams imu_params_;
+  FilterSetup setup_;
+  ErrorVector prior_variance_;
+  StationaryDetector detector_;
+  std::vector<ImuSample> imu_;
+  std::vector<WheelMotion> wheels_;
+  std::vector<PositionFix> fixes_;
+  Rest rest_;
+  std::optional<NavState> truth_;
+  bool truth_has_attitude_ = false;
+};
+
+}  // namespace slipnav

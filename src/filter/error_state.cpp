@@ -1,0 +1,50 @@
+#include "slipnav/filter/error_state.h"
+
+#include <cmath>
+
+#include "slipnav/math/rotation.h"
+
+namespace slipnav {
+
+void subtractError(const Planet& planet, const ErrorVector& error, NavState& state) {
+  const double latitude_rad = state.position.latitude_rad;
+  const double north_m = planet.meridianRadius(latitude_rad) + state.position.height_m;
+  const double east_m = (planet.transverseRadius(latitude_rad) + state.position.height_m) * std::cos(latitude_rad);
+  const Vector3 attitude = error.segment<3>(kAttitude);
+  state.q_b_to_n = (quaternionFromRotationVector(-attitude) * state.q_b_to_n).normalized();
+  state.v_eb_n -= error.segment<3>(kVelocity);
+  state.position.latitude_rad -= error(kPosition) / north_m;
+  state.position.longitude_rad = wrapToPi(state.position.longitude_rad - error(kPosition + 1) / east_m);
+  state.position.height_m += error(kPosition + 2);
+  state.accel_bias_b -= error.segment<3>(kAccelBias);
+  state.gyro_bias_b -= error.segment<3>(kGyroBias);
+}
+
+void subtractError(const ErrorVector& error, VehicleState& state) {
+  state.wheel_scale -= error(kWheelScale);
+  state.slow_slip -= error(kSlowSlip);
+  state.fast_slip -= error(kFastSlip);
+  state.side_slip -= error(kSideSlip);
+  state.mount_pitch_rad -= error(kMountPitch);
+  state.mount_yaw_rad -= error(kMountYaw);
+}
+
+Vector3 positionDifference(const Planet& planet, const Geodetic& estimate, const Geodetic& truth) {
+  const double latitude_rad = truth.latitude_rad;
+  const double north_m = planet.meridianRadius(latitude_rad) + truth.height_m;
+  const double east_m = (planet.transverseRadius(latitude_rad) + truth.height_m) * std::cos(latitude_rad);
+  return {(estimate.latitude_rad - truth.latitude_rad) * north_m,
+          wrapToPi(estimate.longitude_rad - truth.longitude_rad) * east_m, truth.height_m - estimate.height_m};
+}
+
+ErrorVector errorBetween(const Planet& planet, const NavState& estimate, const NavState& truth) {
+  ErrorVector error = ErrorVector::Zero();
+  error.segment<3>(kAttitude) = rotationVectorFromQuaternion(estimate.q_b_to_n * truth.q_b_to_n.conjugate());
+  error.segment<3>(kVelocity) = estimate.v_eb_n - truth.v_eb_n;
+  error.segment<3>(kPosition) = positionDifference(planet, estimate.position, truth.position);
+  error.segment<3>(kAccelBias) = estimate.accel_bias_b - truth.accel_bias_b;
+  error.segment<3>(kGyroBias) = estimate.gyro_bias_b - truth.gyro_bias_b;
+  return error;
+}
+
+}  // namespace slipnav

@@ -1,0 +1,251 @@
+#include "slipnav/filter/filter_engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipnav {
+namespace {
+
+constexpr std::size_t kMaxWaiting = 4096;  // wheel samples kept while there is no initial state yet
+
+template <class Sample>
+bool earlier(const Sample& a, const Sample& b) {
+  return a.stamp < b.stamp;
+}
+
+/// Takes samples that end at or before `stamp` off the front.
+template <class Sample>
+void dropUpTo(Nanoseconds stamp, RingQueue<Sample>& queue) {
+  while (!queue.empty() && queue.front().stamp <= stamp) {
+    queue.pop_front();
+  }
+}
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
+    : planet_(planet),
+      setup_(setup),
+      dynamics_(planet, setup.imu, setup.vehicle),
+      detector_(setup.stationary),
+      update_(setup.filter),
+      use_wheel_(setup.filter.uses("wheel")),
+      use_nonholonomic_(setup.filter.uses("nonholonomic")),
+      use_zupt_(setup.filter.uses("zupt")),
+      use_zaru_(setup.filter.uses("zaru")) {}
+
+void FilterEngine::reset() {
+  initialised_ = false;
+  steps_.clear();
+  wheels_.clear();
+  fixes_.clear();
+  newest_wheels_ = 0;
+}
+
+void FilterEngine::initialise(const InitialState& initial) {
+  initialised_ = true;
+  state_ = initial.nav;
+  vehicle_ = initial.vehicle;
+  P_ = initial.P;
+  next_sequence_ = 0;
+  epoch_ = 0;
+  estimate_ = Estimate{};
+  detector_.reset();
+  update_ = GatedUpdate(setup_.filter);
+  average_.restart(0);
+  steps_.clear();
+  // A wheel interval that began before the initial state is not known in full and goes unused.
+  while (!wheels_.empty() && wheels_.front().stamp <= initial.nav.stamp) {
+    average_.restart(wheels_.front().stamp == initial.nav.stamp ? initial.nav.stamp : 0);
+    wheels_.pop_front();
+  }
+  dropUpTo(initial.nav.stamp, fixes_);
+}
+
+void FilterEngine::push(const InsStep& step) {
+  const std::uint64_t expected = next_sequence_ + steps_.size();
+  if (initialised_ && step.epoch == epoch_ && step.sequence == expected) {
+    steps_.push_back(step);
+  }
+}
+
+bool FilterEngine::push(const WheelMotion& wheels) {
+  const bool finite = std::isfinite(wheels.motion.forward_mps) && std::isfinite(wheels.motion.yaw_rate_radps);
+  if (!finite || (initialised_ && wheels.stamp <= state_.stamp)) {
+    return false;
+  }
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    if (wheels_[i].stamp == wheels.stamp) {
+      return false;
+    }
+  }
+  if (!initialised_ && wheels_.size() >= kMaxWaiting) {
+    wheels_.pop_front();
+  }
+  wheels_.insertSorted(wheels, earlier<WheelMotion>);
+  newest_wheels_ = std::max(newest_wheels_, wheels.stamp);
+  return true;
+}
+
+void FilterEngine::assumeCompleteUpTo(Nanoseconds stamp) { newest_wheels_ = std::max(newest_wheels_, stamp); }
+
+bool FilterEngine::push(const PositionFix& fix) {
+  const bool finite = std::isfinite(fix.position.latitude_rad) && std::isfinite(fix.position.longitude_rad) &&
+                      std::isfinite(fix.position.height_m) && fix.variance_ned_m2.allFinite();
+  if (!finite || (initialised_ && fix.stamp <= state_.stamp)) {
+    return false;
+  }
+  fixes_.insertSorted(fix, earlier<PositionFix>);
+  return true;
+}
+
+bool FilterEngine::isCertain(const InsStep& step) const {
+  if (setup_.filter.updates.empty() || newest_wheels_ >= step.state.stamp) {
+    return true;
+  }
+  return toSeconds(steps_.back().state.stamp - step.state.stamp) >= setup_.filter.max_wait_s;
+}
+
+std::optional<Correction> FilterEngine::advance(const EstimateSink& sink) {
+  while (!steps_.empty() && isCertain(steps_.front())) {
+    const InsStep step = steps_.front();
+    steps_.pop_front();
+    const Vector3 v_mean_b = propagate(step);
+    const bool by_wheels = applyWheels(step, v_mean_b);
+    const bool by_fixes = applyFixes();
+    estimate_.sequence = step.sequence;
+    estimate_.nav = state_;
+    estimate_.vehicle = vehicle_;
+    estimate_.f_ib_b = step.f_ib_b;
+    estimate_.omega_ib_b = step.omega_ib_b;
+    ++next_sequence_;
+    sink(estimate_, P_);
+    if (by_wheels || by_fixes) {
+      steps_.clear();
+      return Correction{step.sequence, ++epoch_, state_};
+    }
+  }
+  return std::nullopt;
+}
+
+Vector3 FilterEngine::propagate(const InsStep& step) {
+  const Vector3 v_start_b = referenceVelocity(step);
+  const double duration_s = toSeconds(step.state.stamp - step.start);
+  transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
+  ErrorDynamics::propagate(transition_, P_);
+  ErrorDynamics::decay(transition_, vehicle_);
+  if (step.gap_s > 0.0) {
+    inflateForGap(step.gap_s);
+  }
+  detector_.addImu(step.state.stamp, step.f_ib_b, step.omega_ib_b);
+  state_ = step.state;
+  return 0.5 * (v_start_b + referenceVelocity(step));
+}
+
+Vector3 FilterEngine::referenceVelocity(const InsStep& step) const {
+  const Vector3 omega_ie_b = state_.q_b_to_n.conjugate() * planet_.omega_ie_n(state_.position.latitude_rad);
+  return bodyVelocity(state_, step.omega_ib_b - omega_ie_b, setup_.lever_imu_to_reference_b);
+}
+
+void FilterEngine::inflateForGap(double gap_s) {
+  const double turn = degToRad(setup_.filter.gap_rate_std_deg_per_s) * gap_s;
+  const double speed = setup_.filter.gap_accel_std_mps2 * gap_s;
+  P_.diagonal().segment<3>(kAttitude).array() += square(turn);
+  P_.diagonal().segment<3>(kVelocity).array() += square(speed);
+  P_.diagonal().segment<3>(kPosition).array() += square(0.5 * speed * gap_s);
+}
+
+bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
+  estimate_.has_wheels = false;
+  if (toSeconds(step.state.stamp - estimate_.wheels.stamp) > setup_.filter.max_wheel_interval_s) {
+    estimate_.stationary = false;
+  }
+  bool corrected = false;
+  while (!wheels_.empty() && wheels_.front().stamp <= step.state.stamp) {
+    const WheelMotion wheels = wheels_.front();
+    wheels_.pop_front();
+    const double interval_s = toSeconds(wheels.stamp - average_.start());
+    if (average_.start() != 0) {
+      average_.add(step, v_mean_b, average_.start(), wheels.stamp);
+    }
+    const std::optional<BodyMotion> motion = average_.mean();
+    detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
+    if (average_.start() != 0 && interval_s <= setup_.filter.max_wheel_interval_s && motion) {
+      corrected = applyWheelSample(wheels, *motion) || corrected;
+    }
+    average_.restart(wheels.stamp);
+  }
+  if (average_.start() != 0) {
+    average_.add(step, corrected ? referenceVelocity(step) : v_mean_b, average_.start(), step.state.stamp);
+  }
+  return corrected;
+}
+
+bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion) {
+  estimate_.has_wheels = true;
+  estimate_.wheels = wheels;
+  estimate_.motion = motion;
+  const double gravity_mps2 = planet_.gravity_n(state_.position).norm();
+  const bool at_rest = detector_.isStationary(gravity_mps2);
+  const std::uint64_t zero_updates = update_.status(kZeroVelocity).accepted;
+  const bool corrected = update(at_rest ? restingMeasurements(motion) : movingMeasurements(wheels, motion));
+  estimate_.stationary = at_rest && (!use_zupt_ || update_.status(kZeroVelocity).accepted > zero_updates);
+  return corrected;
+}
+
+MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const {
+  const Vector3& lever_b = setup_.lever_imu_to_reference_b;
+  MeasurementSet set;
+  if (use_wheel_) {
+    set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, motion, state_, vehicle_,
+                                                   lever_b));
+    if (wheels.motion.has_yaw_rate) {
+      set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheels.motion.yaw_rate_radps, motion));
+    }
+  }
+  if (use_nonholonomic_) {
+    const double side_slip_rad = slipAngle(motion.v_eb_b, vehicle_);
+    if (std::abs(side_slip_rad) < degToRad(setup_.nonholonomic.max_side_slip_deg)) {
+      set.add(kLateral, lateralMeasurement(setup_.nonholonomic, motion, state_, vehicle_, lever_b));
+    }
+    set.add(kVertical, verticalMeasurement(setup_.nonholonomic, motion, state_, vehicle_, lever_b));
+  }
+  return set;
+}
+
+MeasurementSet FilterEngine::restingMeasurements(const BodyMotion& motion) const {
+  MeasurementSet set;
+  if (use_zupt_) {
+    set.add(kZeroVelocity, zeroVelocityMeasurement(setup_.zero, state_));
+  }
+  if (use_zaru_) {
+    set.add(kZeroRate, zeroAngularRateMeasurement(setup_.zero, dynamics_.gyroNoiseDensity(), motion, state_,
+                                                  planet_.omega_ie_n(state_.position.latitude_rad)));
+  }
+  return set;
+}
+
+bool FilterEngine::applyFixes() {
+  bool corrected = false;
+  while (!fixes_.empty() && fixes_.front().stamp <= state_.stamp) {
+    MeasurementSet set;
+    set.add(kFixPosition, positionMeasurement(planet_, fixes_.front(), state_, setup_.lever_imu_to_antenna_b));
+    corrected = update(set) || corrected;
+    fixes_.pop_front();
+  }
+  return corrected;
+}
+
+bool FilterEngine::update(MeasurementSet set) {
+  const std::optional<ErrorVector> error = update_.apply(set, state_.stamp, P_);
+  if (!error) {
+    return false;
+  }
+  subtractError(planet_, *error, state_);
+  subtractError(*error, vehicle_);
+  return true;
+}
+
+}  // namespace slipnav

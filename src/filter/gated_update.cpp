@@ -1,0 +1,72 @@
+#include "slipnav/filter/gated_update.h"
+
+namespace slipnav {
+
+GatedUpdate::GatedUpdate(const FilterParams& params) : max_rejection_s_(params.max_rejection_s), gate_{}, zero_gate_{} {
+  for (int rows = 1; rows <= kMaxMeasurementRows; ++rows) {
+    gate_[static_cast<std::size_t>(rows)] = chiSquareQuantile(rows, params.gate_alpha);
+    zero_gate_[static_cast<std::size_t>(rows)] = chiSquareQuantile(rows, params.zero_velocity_gate_alpha);
+  }
+}
+
+double GatedUpdate::limit(const MeasurementSet::Block& block) const {
+  const bool zero = block.component == kZeroVelocity || block.component == kZeroRate;
+  return (zero ? zero_gate_ : gate_)[static_cast<std::size_t>(block.measurement.residual.size())];
+}
+
+bool GatedUpdate::passes(MeasurementSet::Block& block, Nanoseconds stamp, const ErrorCovariance& P) {
+  Measurement& m = block.measurement;
+  ComponentStatus& status = status_[block.component];
+  const std::optional<double> nis = normalisedInnovationSquared(m, P);
+  if (!nis) {
+    ++status.rejected;
+    return false;
+  }
+  const double degrees = static_cast<double>(m.residual.size());
+  status.last_nis = *nis / degrees;
+  if (*nis <= limit(block)) {
+    status.nis_sum += status.last_nis;
+    ++status.accepted;
+    status.rejected_since = 0;
+    return true;
+  }
+  ++status.rejected;
+  if (status.rejected_since == 0) {
+    status.rejected_since = stamp;
+  }
+  // What contradicts for long is no outlier: let it pull, as hard as a measurement at the gate would. Standstill is
+  // exempt: it is not a matter of noise, and a dead encoder must not be believed in the end.
+  if (m.residual.size() == 1 && toSeconds(stamp - status.rejected_since) > max_rejection_s_) {
+    m.variance(0) += (*nis / limit(block) - 1.0) * (m.residual(0) * m.residual(0) / *nis);
+    return true;
+  }
+  return false;
+}
+
+std::optional<ErrorVector> GatedUpdate::apply(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P) {
+  std::array<bool, 4> passed = {};
+  int rows = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    passed[i] = passes(set[i], stamp, P);
+    rows += passed[i] ? static_cast<int>(set[i].measurement.residual.size()) : 0;
+  }
+  if (rows == 0) {
+    return std::nullopt;
+  }
+  Measurement stacked(rows);
+  int row = 0;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (!passed[i]) {
+      continue;
+    }
+    const Measurement& m = set[i].measurement;
+    const int n = static_cast<int>(m.residual.size());
+    stacked.residual.segment(row, n) = m.residual;
+    stacked.H.middleRows(row, n) = m.H;
+    stacked.variance.segment(row, n) = m.variance;
+    row += n;
+  }
+  return kalmanUpdate(stacked, P);
+}
+
+}  // namespace slipnav

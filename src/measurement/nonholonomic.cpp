@@ -1,0 +1,54 @@
+#include "slipnav/measurement/nonholonomic.h"
+
+#include <cmath>
+
+namespace slipnav {
+namespace {
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+void NonholonomicParams::visit(ParameterVisitor& v) {
+  v.number("lateral_std_mps", lateral_std_mps, {1e-6, 10.0}, "1σ of the lateral speed beside the side slip [m/s]");
+  v.number("lateral_turn_std_m", lateral_turn_std_m, {0.0, 10.0},
+           "1σ of the lateral speed per heading rate: how far the centre of turn wanders along the vehicle [m]");
+  v.number("vertical_std_mps", vertical_std_mps, {1e-6, 10.0}, "1σ of the speed off the ground [m/s]");
+  v.number("vertical_turn_std_m", vertical_turn_std_m, {0.0, 10.0},
+           "1σ of the speed off the ground per roll and pitch rate [m]");
+  v.number("max_side_slip_deg", max_side_slip_deg, {0.1, 90.0},
+           "slip angle beyond which the lateral constraint is dropped [°]");
+}
+
+Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavState& state,
+                               const VehicleState& vehicle, const Vector3& lever_b) {
+  const double v_x = motion.v_eb_b.x();
+  const double angle = vehicle.mount_yaw_rad - vehicle.side_slip;
+  const Eigen::Matrix<double, 3, kErrorStates> H_v = bodyVelocityJacobian(state, lever_b);
+  Measurement m(1);
+  m.residual(0) = -(motion.v_eb_b.y() + angle * v_x);
+  m.H = H_v.row(1) + angle * H_v.row(0);
+  m.H(0, kMountYaw) = v_x;
+  m.H(0, kSideSlip) = -v_x;
+  m.variance(0) = square(params.lateral_std_mps) + square(params.lateral_turn_std_m * motion.omega_ib_b.z());
+  return m;
+}
+
+Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavState& state,
+                                const VehicleState& vehicle, const Vector3& lever_b) {
+  const double v_x = motion.v_eb_b.x();
+  const Eigen::Matrix<double, 3, kErrorStates> H_v = bodyVelocityJacobian(state, lever_b);
+  Measurement m(1);
+  m.residual(0) = -(motion.v_eb_b.z() - vehicle.mount_pitch_rad * v_x);
+  m.H = H_v.row(2) - vehicle.mount_pitch_rad * H_v.row(0);
+  m.H(0, kMountPitch) = -v_x;
+  m.variance(0) = square(params.vertical_std_mps) +
+                  square(params.vertical_turn_std_m) * motion.omega_ib_b.head<2>().squaredNorm();
+  return m;
+}
+
+double slipAngle(const Vector3& v_eb_b, const VehicleState& vehicle) {
+  return std::atan2(v_eb_b.y() + vehicle.mount_yaw_rad * v_eb_b.x(), v_eb_b.x());
+}
+
+}  // namespace slipnav

@@ -1,0 +1,46 @@
+#include "slipnav/measurement/wheel_odometry.h"
+
+#include <cmath>
+
+namespace slipnav {
+namespace {
+
+double square(double x) { return x * x; }
+
+}  // namespace
+
+void WheelOdometryParams::visit(ParameterVisitor& v) {
+  v.number("speed_std_mps", speed_std_mps, {1e-6, 10.0}, "1σ of the wheel speed whatever the speed [m/s]");
+  v.number("slip_noise_std", slip_noise_std, {0.0, 1.0}, "1σ of slip that is new in every sample, a ratio of speed");
+  v.number("yaw_rate_std_deg_per_s", yaw_rate_std_deg_per_s, {1e-6, 1e3}, "1σ of the heading rate from wheels [°/s]");
+  v.number("yaw_rate_scale_std", yaw_rate_scale_std, {0.0, 10.0},
+           "1σ of the heading rate from wheels as a ratio of the rate: scrubbing");
+  v.number("scrub_factor", scrub_factor, {0.1, 10.0},
+           "how much wider than the geometric track the wheels act in a turn");
+}
+
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
+                                    const BodyMotion& motion, const NavState& state, const VehicleState& vehicle,
+                                    const Vector3& lever_b) {
+  Measurement m(1);
+  const double slip = vehicle.wheel_scale + vehicle.slow_slip + vehicle.fast_slip;
+  m.residual(0) = wheel_speed_mps * (1.0 - slip) - motion.v_eb_b.x();
+  m.H = bodyVelocityJacobian(state, lever_b).row(0);
+  m.H(0, kWheelScale) = wheel_speed_mps;
+  m.H(0, kSlowSlip) = wheel_speed_mps;
+  m.H(0, kFastSlip) = wheel_speed_mps;
+  m.variance(0) = square(params.speed_std_mps) + square(params.slip_noise_std * wheel_speed_mps);
+  return m;
+}
+
+Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps,
+                               const BodyMotion& motion) {
+  Measurement m(1);
+  m.residual(0) = wheel_yaw_rate_radps - motion.omega_ib_b.z();
+  m.H(0, kGyroBias + 2) = -1.0;
+  m.variance(0) = square(degToRad(params.yaw_rate_std_deg_per_s)) +
+                  square(params.yaw_rate_scale_std * motion.omega_ib_b.z());
+  return m;
+}
+
+}  // namespace slipnav

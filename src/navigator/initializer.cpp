@@ -1,0 +1,353 @@
+#include "slipnav/navigator/initializer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "slipnav/ins/levelling.h"
+#include "slipnav/math/rotation.h"
+#include "slipnav/navigator/navigator.h"
+
+namespace slipnav {
+namespace {
+
+// Wide enough that what follows decides: the filter sees the same samples again and must not count them twice.
+constexpr double kLevelStd_rad = 2.0 * kPi / 180.0;
+constexpr double kDriveHeadingStd_rad = 5.0 * kPi / 180.0;
+constexpr double kRestVelocityStd_mps = 0.05;
+constexpr double kFixStdFactor = 3.0;
+// An attitude or position that is called the truth still ends up in a matrix that has to be inverted.
+constexpr double kTruthAttitudeStd_rad = 1e-5;
+constexpr double kTruthVelocityStd_mps = 1e-3;
+
+double square(double x) { return x * x; }
+
+ErrorCovariance priorCovariance(const ErrorVector& prior_variance) { return prior_variance.asDiagonal(); }
+
+}  // namespace
+
+void InitializationParams::visit(ParameterVisitor& v) {
+  v.choice("source", source, {"gnss", "given", "truth", "motion"},
+           "gnss: rest, then a straight drive under gps/fix; given: the pose below; motion: the heading below, position "
+           "zero; truth: the first truth pose (evaluation only)");
+  v.number("heading_deg", heading_deg, {-360.0, 360.0}, "heading for given and motion, clockwise from north [°]");
+  v.number("heading_std_deg", heading_std_deg, {0.0, 180.0}, "1σ of that heading [°]");
+  v.number("latitude_deg", latitude_deg, {-89.99, 89.99}, "where the rover starts, for given and motion [°]");
+  v.number("longitude_deg", longitude_deg, {-180.0, 180.0}, "likewise [°]");
+  v.number("height_m", height_m, {-20000.0, 50000.0}, "likewise, above the ellipsoid [m]");
+  v.number("position_std_m", position_std_m, {0.0, 1e6}, "1σ of a given start position on each axis [m]");
+  v.number("min_rest_s", min_rest_s, {0.5, 3600.0}, "shortest standstill that serves for levelling [s]");
+  v.number("max_rest_s", max_rest_s, {1.0, 3600.0}, "what is remembered of a longer one [s]");
+  v.number("drive_distance_m", drive_distance_m, {1.0, 1000.0}, "length of the drive that gives the heading [m]");
+  v.number("levelling_window_s", levelling_window_s, {0.5, 600.0},
+           "length of the window for levelling without a standstill [s]");
+  v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0}, "1σ of roll and pitch levelled on the move [°]");
+  v.number("moving_speed_std_mps", moving_speed_std_mps, {1e-3, 10.0}, "1σ of the velocity when starting on the move [m/s]");
+}
+
+Initializer::Initializer(const Planet& planet, const InitializationParams& params, const ImuInputParams& imu,
+                         const FilterSetup& setup)
+    : planet_(planet),
+      params_(params),
+      imu_params_(imu),
+      setup_(setup),
+      prior_variance_(ErrorDynamics(planet, setup.imu, setup.vehicle).priorVariance()),
+      detector_(setup.stationary) {}
+
+void Initializer::reset() {
+  detector_.reset();
+  imu_.clear();
+  wheels_.clear();
+  fixes_.clear();
+  rest_ = Rest{};
+  truth_.reset();
+}
+
+void Initializer::setTruth(const NavState& truth, bool has_attitude) {
+  truth_ = truth;
+  truth_has_attitude_ = has_attitude;
+}
+
+void Initializer::push(const ImuSample& sample) {
+  if (!sample.f_ib_b.allFinite() || !sample.omega_ib_b.allFinite() ||
+      (!imu_.empty() && sample.stamp <= imu_.back().stamp)) {
+    return;
+  }
+  imu_.push_back(sample);
+  detector_.addImu(sample.stamp, sample.f_ib_b, sample.omega_ib_b);
+}
+
+void Initializer::push(const WheelMotion& wheels) {
+  if (!std::isfinite(wheels.motion.forward_mps) || (!wheels_.empty() && wheels.stamp <= wheels_.back().stamp)) {
+    return;
+  }
+  wheels_.push_back(wheels);
+  trackRest(wheels);
+}
+
+void Initializer::push(const PositionFix& fix) {
+  if (std::isfinite(fix.position.latitude_rad) && (fixes_.empty() || fix.stamp > fixes_.back().stamp)) {
+    fixes_.push_back(fix);
+  }
+}
+
+void Initializer::trackRest(const WheelMotion& wheels) {
+  detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
+  const double gravity_mps2 =
+      planet_.gravity_n({degToRad(params_.latitude_deg), degToRad(params_.longitude_deg), params_.height_m}).norm();
+  const bool at_rest = detector_.isStationary(gravity_mps2);
+  if (at_rest && !rest_.over) {
+    if (rest_.begin == 0) {
+      rest_.begin = wheels.stamp;
+    }
+    rest_.end = wheels.stamp;
+    forgetBefore(rest_.end - fromSeconds(params_.max_rest_s));
+  } else if (!at_rest && rest_.begin != 0 && !rest_.over) {
+    if (restIsLongEnough()) {
+      rest_.over = true;
+    } else {
+      rest_ = Rest{};
+    }
+  }
+}
+
+void Initializer::forgetBefore(Nanoseconds stamp) {
+  if (rest_.begin >= stamp) {
+    return;
+  }
+  rest_.begin = stamp;
+  const auto drop = [stamp](auto& samples) {
+    samples.erase(samples.begin(), std::find_if(samples.begin(), samples.end(),
+                                                [stamp](const auto& sample) { return sample.stamp >= stamp; }));
+  };
+  drop(imu_);
+  drop(wheels_);
+  drop(fixes_);
+}
+
+bool Initializer::restIsLongEnough() const { return toSeconds(rest_.end - rest_.begin) >= params_.min_rest_s; }
+
+std::optional<InitialState> Initializer::result() const {
+  if (params_.source == "gnss") {
+    return fromDrive();
+  }
+  return params_.source == "truth" && truth_has_attitude_ ? fromTruth() : fromWindow();
+}
+
+std::string Initializer::progress() const {
+  if (params_.source != "gnss") {
+    return imu_.empty() ? "waiting for imu/data" : "levelling";
+  }
+  if (!restIsLongEnough()) {
+    return "waiting for a standstill of " + std::to_string(static_cast<int>(std::ceil(params_.min_rest_s))) + " s";
+  }
+  if (fixes_.empty()) {
+    return "waiting for gps/fix";
+  }
+  return rest_.over ? "straight drive under gps/fix" : "at rest: ready for the straight drive";
+}
+
+std::optional<Nanoseconds> Initializer::firstImuStampFrom(Nanoseconds stamp) const {
+  const auto it = std::find_if(imu_.begin(), imu_.end(), [stamp](const ImuSample& s) { return s.stamp >= stamp; });
+  return it == imu_.end() ? std::nullopt : std::optional<Nanoseconds>(it->stamp);
+}
+
+std::optional<InitialState> Initializer::fromTruth() const {
+  if (!truth_) {
+    return std::nullopt;
+  }
+  InitialState initial;
+  initial.nav = *truth_;
+  initial.origin = truth_->position;
+  initial.P = priorCovariance(prior_variance_);
+  initial.P.diagonal().segment<3>(kAttitude).setConstant(square(kTruthAttitudeStd_rad));
+  initial.P.diagonal().segment<3>(kVelocity).setConstant(square(kTruthVelocityStd_mps));
+  initial.P.diagonal().segment<3>(kPosition).setConstant(square(params_.position_std_m));
+  return initial;
+}
+
+std::optional<InitialState> Initializer::fromWindow() const {
+  const bool from_truth = params_.source == "truth";
+  if (imu_.size() < 2 || (from_truth && !truth_)) {
+    return std::nullopt;
+  }
+  const std::optional<Nanoseconds> begin =
+      firstImuStampFrom(from_truth ? truth_->stamp : wheels_.empty() ? imu_.front().stamp : wheels_.front().stamp);
+  if (!begin || toSeconds(imu_.back().stamp - *begin) < params_.levelling_window_s) {
+    return std::nullopt;
+  }
+  const Nanoseconds end = *begin + fromSeconds(params_.levelling_window_s);
+  const Nanoseconds slack = fromSeconds(setup_.stationary.hold_off_s + setup_.stationary.window_s + 0.5);
+  const bool at_rest = rest_.begin != 0 && rest_.begin <= *begin + slack && rest_.end + slack >= end;
+  InitialState initial = levelled(*begin, at_rest ? std::min(end, rest_.end) : end, at_rest,
+                                  degToRad(params_.heading_deg));
+  initial.nav.position = {degToRad(params_.latitude_deg), degToRad(params_.longitude_deg), params_.height_m};
+  if (from_truth) {
+    initial.nav.position = truth_->position;
+  }
+  initial.origin = initial.nav.position;
+  initial.P(kAttitude + 2, kAttitude + 2) = square(degToRad(params_.heading_std_deg));
+  initial.P.diagonal().segment<3>(kPosition).setConstant(square(params_.position_std_m));
+  return initial;
+}
+
+std::optional<InitialState> Initializer::fromDrive() const {
+  const bool rested = restIsLongEnough();
+  if (imu_.size() < 2 || fixes_.empty() || (rested && !rest_.over)) {
+    return std::nullopt;
+  }
+  const std::optional<Nanoseconds> begin = firstImuStampFrom(rested ? rest_.begin : fixes_.front().stamp);
+  const std::optional<PositionFix> start = begin ? startFix(*begin) : std::nullopt;
+  const std::optional<PositionFix> end = start ? endFix(*start) : std::nullopt;
+  const std::optional<Nanoseconds> until = end ? firstImuStampFrom(end->stamp) : std::nullopt;
+  if (!until || wheels_.empty()) {
+    return std::nullopt;
+  }
+  const bool wheels_known = wheels_.back().stamp >= *until;
+  if (!wheels_known && toSeconds(imu_.back().stamp - *until) < setup_.filter.max_wait_s) {
+    return std::nullopt;
+  }
+  const Nanoseconds level_end = rested ? rest_.end : *begin + fromSeconds(params_.levelling_window_s);
+  InitialState initial = levelled(*begin, level_end, rested, headingOfDrive(*start, *end, rested));
+  initial.nav.position = start->position;
+  const Vector3 antenna_n = initial.nav.q_b_to_n * setup_.lever_imu_to_antenna_b;
+  ErrorVector lever = ErrorVector::Zero();
+  lever.segment<3>(kPosition) = antenna_n;
+  subtractError(planet_, lever, initial.nav);
+  initial.origin = initial.nav.position;
+  initial.P(kAttitude + 2, kAttitude + 2) = square(kDriveHeadingStd_rad);
+  initial.P.diagonal().segment<3>(kPosition) = square(kFixStdFactor) * start->variance_ned_m2;
+  InitialState result = runFilter(initial, *until);
+  result.origin = initial.origin;
+  return result;
+}
+
+std::optional<PositionFix> Initializer::startFix(Nanoseconds begin) const {
+  if (!restIsLongEnough()) {
+    return fixes_.front();
+  }
+  PositionFix mean;
+  double n = 0.0;
+  double latitude = 0.0;
+  double longitude = 0.0;
+  for (const PositionFix& fix : fixes_) {
+    if (fix.stamp < begin || fix.stamp > rest_.end) {
+      continue;
+    }
+    if (n == 0.0) {
+      mean = fix;
+      mean.position.height_m = 0.0;
+    }
+    const Geodetic& reference = fixes_.front().position;  // offsets keep the digits
+    latitude += fix.position.latitude_rad - reference.latitude_rad;
+    longitude += wrapToPi(fix.position.longitude_rad - reference.longitude_rad);
+    mean.position.height_m += fix.position.height_m;
+    n += 1.0;
+  }
+  if (n == 0.0) {
+    return std::nullopt;
+  }
+  mean.position = {fixes_.front().position.latitude_rad + latitude / n,
+                   wrapToPi(fixes_.front().position.longitude_rad + longitude / n), mean.position.height_m / n};
+  mean.stamp = begin;
+  return mean;
+}
+
+std::optional<PositionFix> Initializer::endFix(const PositionFix& start) const {
+  for (const PositionFix& fix : fixes_) {
+    if (fix.stamp > start.stamp && positionDifference(planet_, fix.position, start.position).head<2>().norm() >=
+                                       params_.drive_distance_m) {
+      return fix;
+    }
+  }
+  return std::nullopt;
+}
+
+double Initializer::headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const {
+  const double bias_z = at_rest ? mean(rest_.begin, rest_.end).omega_ib_b.z() : 0.0;
+  double heading = 0.0;
+  Vector2 track = Vector2::Zero();
+  for (std::size_t i = 1; i < imu_.size() && imu_[i].stamp <= end.stamp; ++i) {
+    if (imu_[i].stamp <= start.stamp) {
+      continue;
+    }
+    const double dt_s = toSeconds(imu_[i].stamp - imu_[i - 1].stamp);
+    heading += dt_s * (imu_[i].omega_ib_b.z() - bias_z);
+    track += dt_s * speedAt(imu_[i].stamp) * Vector2(std::cos(heading), std::sin(heading));
+  }
+  const Vector3 driven = positionDifference(planet_, end.position, start.position);
+  return wrapToPi(std::atan2(driven.y(), driven.x()) - std::atan2(track.y(), track.x()));
+}
+
+ImuSample Initializer::mean(Nanoseconds begin, Nanoseconds end) const {
+  ImuSample sum;
+  double n = 0.0;
+  for (const ImuSample& sample : imu_) {
+    if (sample.stamp > begin && sample.stamp <= end) {
+      sum.f_ib_b += sample.f_ib_b;
+      sum.omega_ib_b += sample.omega_ib_b;
+      n += 1.0;
+    }
+  }
+  sum.f_ib_b /= std::max(n, 1.0);
+  sum.omega_ib_b /= std::max(n, 1.0);
+  return sum;
+}
+
+double Initializer::speedAt(Nanoseconds stamp) const {
+  const auto it =
+      std::find_if(wheels_.begin(), wheels_.end(), [stamp](const WheelMotion& w) { return w.stamp >= stamp; });
+  return it == wheels_.end() ? (wheels_.empty() ? 0.0 : wheels_.back().motion.forward_mps) : it->motion.forward_mps;
+}
+
+InitialState Initializer::levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const {
+  InitialState initial;
+  initial.nav.stamp = begin;
+  initial.P = priorCovariance(prior_variance_);
+  Vector2 roll_pitch;
+  if (at_rest) {
+    roll_pitch = levelAtRest(mean(begin, end).f_ib_b);
+    initial.P.diagonal().segment<3>(kAttitude).setConstant(square(kLevelStd_rad));
+    initial.P.diagonal().segment<3>(kVelocity).setConstant(square(kRestVelocityStd_mps));
+  } else {
+    std::vector<ImuSample> window;
+    std::copy_if(imu_.begin(), imu_.end(), std::back_inserter(window),
+                 [begin, end](const ImuSample& s) { return s.stamp >= begin && s.stamp <= end; });
+    roll_pitch = levelAtRest(reactionToGravityOnTheMove(window, speedAt(begin), speedAt(end)));
+    initial.P.diagonal().segment<3>(kAttitude).setConstant(square(degToRad(params_.moving_level_std_deg)));
+    initial.P.diagonal().segment<3>(kVelocity).setConstant(square(params_.moving_speed_std_mps));
+  }
+  initial.nav.q_b_to_n = q_b_to_n_fromEuler(roll_pitch.x(), roll_pitch.y(), heading_rad);
+  if (!at_rest) {
+    initial.nav.v_eb_n = initial.nav.q_b_to_n * Vector3(speedAt(begin), 0.0, 0.0);
+  }
+  return initial;
+}
+
+InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until) const {
+  Navigator navigator(planet_, imu_params_, setup_);
+  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  for (const PositionFix& fix : fixes_) {
+    if (fix.stamp <= until) {
+      navigator.push(fix);
+    }
+  }
+  for (const WheelMotion& wheels : wheels_) {
+    if (wheels.stamp <= until) {
+      navigator.push(wheels, ignore);
+    }
+  }
+  for (const ImuSample& sample : imu_) {
+    if (sample.stamp <= until) {
+      navigator.push(sample, ignore);
+    }
+  }
+  navigator.initialise(start);
+  navigator.completeUpTo(until, ignore);
+  InitialState result = start;
+  result.nav = navigator.filter().state();
+  result.vehicle = navigator.filter().vehicle();
+  result.P = navigator.filter().covariance();
+  return result;
+}
+
+}  // namespace slipnav
