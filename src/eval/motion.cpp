@@ -114,8 +114,10 @@ double pieceLength(const Piece& piece, const DistanceOptions& options) {
   double previous_mps = 0.0;
   for (std::size_t i = 0; i < piece.size(); ++i) {
     const Window window = windowAbout(piece, i, options.half_window_s);
-    const bool stands = meanVelocity(piece, window).norm() < options.standstill_speed_mps;
-    const double speed_mps = stands ? 0.0 : velocityAt(piece, window, i).norm();
+    const Vector3 mean_mps = meanVelocity(piece, window);
+    // along the mean direction, since the length of a noisy vector is too long
+    const bool stands = mean_mps.norm() <= options.standstill_speed_mps;
+    const double speed_mps = stands ? 0.0 : velocityAt(piece, window, i).dot(mean_mps.normalized());
     if (i > 0) {
       length_m += 0.5 * (previous_mps + speed_mps) * (piece[i].t_s - piece[i - 1].t_s);
     }

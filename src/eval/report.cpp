@@ -10,9 +10,10 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "fields.h"
+#include "slipnav/config/text.h"
 #include "slipnav/eval/atomic_file.h"
 #include "slipnav/eval/tum.h"
-#include "text.h"
 
 namespace slipnav {
 namespace {
@@ -22,17 +23,14 @@ constexpr int kCsvDigits = 12;
 /// Writes the members of one JSON object.
 class JsonObject {
  public:
-  JsonObject() {
-    out_.imbue(std::locale::classic());
-    out_ << std::setprecision(std::numeric_limits<double>::max_digits10);
-  }
+  JsonObject() { out_.imbue(std::locale::classic()); }
 
   void addCount(const char* key, std::int64_t value) { begin(key) << value; }
 
   void addNumber(const char* key, std::optional<double> value) {
     std::ostream& out = begin(key);
     if (value && std::isfinite(*value)) {
-      out << *value;
+      out << formatNumber(*value);
     } else {
       out << "null";
     }
@@ -96,8 +94,8 @@ std::string tableLine(const std::string& name, CellOf cellOf) {
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     out << ' ' << std::setw(kColumnWidth) << cellOf(i);
   }
-  out << '\n';
-  return out.str();
+  const std::string line = out.str();
+  return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
 }
 
 }  // namespace

@@ -7,10 +7,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "fields.h"
 #include "slipnav/earth/local_frame.h"
 #include "slipnav/earth/planet.h"
 #include "slipnav/eval/gps_time.h"
-#include "text.h"
 
 namespace slipnav {
 namespace {
@@ -97,14 +97,14 @@ Nanoseconds parseCalendar(const std::string& date_text, const std::string& time_
   if (date.size() != 3 || time.size() != 3) {
     throw std::invalid_argument("'" + date_text + " " + time_text + "' is not a date and time");
   }
-  return calendarNanoseconds({parseInteger(date[0]), parseInteger(date[1]), parseInteger(date[2]),
-                              parseInteger(time[0]), parseInteger(time[1]), parseSeconds(time[2])});
+  return calendarNanoseconds({integerField(date[0]), integerField(date[1]), integerField(date[2]),
+                              integerField(time[0]), integerField(time[1]), secondsField(time[2])});
 }
 
 Nanoseconds parseStamp(const Header& header, const Fields& fields) {
   const bool is_date = fields[0].find('/') != std::string::npos;
   const Nanoseconds calendar = is_date ? parseCalendar(fields[0], fields[1])
-                                       : calendarNanoseconds(parseInteger(fields[0]), parseSeconds(fields[1]));
+                                       : calendarNanoseconds(integerField(fields[0]), secondsField(fields[1]));
   switch (header.time_system) {
     case TimeSystem::kGpst:
       return unixFromGpst(calendar);
@@ -118,13 +118,13 @@ Nanoseconds parseStamp(const Header& header, const Fields& fields) {
 
 /// Degrees from degrees, minutes and seconds; the sign stands before the degrees, which may be -0.
 double parseDms(const Fields& fields, std::size_t at) {
-  const double degrees = std::abs(parseNumber(fields[at]));
-  const double magnitude = degrees + parseNumber(fields[at + 1]) / 60.0 + parseNumber(fields[at + 2]) / 3600.0;
+  const double degrees = std::abs(numberField(fields[at]));
+  const double magnitude = degrees + numberField(fields[at + 1]) / 60.0 + numberField(fields[at + 2]) / 3600.0;
   return fields[at].front() == '-' ? -magnitude : magnitude;
 }
 
 Vector3 parseVector(const Fields& fields, std::size_t at) {
-  return {parseNumber(fields[at]), parseNumber(fields[at + 1]), parseNumber(fields[at + 2])};
+  return {numberField(fields[at]), numberField(fields[at + 1]), numberField(fields[at + 2])};
 }
 
 Position fromDegrees(double latitude_deg, double longitude_deg, double height_m) {
@@ -161,7 +161,7 @@ Position parsePosition(const Header& header, const Fields& fields, const std::op
   switch (header.layout) {
     case Layout::kDegreesMinutesSeconds:
       return fromDegrees(parseDms(fields, kTimeFields), parseDms(fields, kTimeFields + kAngleFields),
-                         parseNumber(fields[kTimeFields + 2 * kAngleFields]));
+                         numberField(fields[kTimeFields + 2 * kAngleFields]));
     case Layout::kEcef:
       return fromEcef(parseVector(fields, kTimeFields));
     case Layout::kBaseline:
@@ -178,7 +178,7 @@ Position parsePosition(const Header& header, const Fields& fields, const std::op
 Matrix3 parseCovariance(const Fields& fields, std::size_t at) {
   std::array<double, 6> element{};
   for (std::size_t i = 0; i < element.size(); ++i) {
-    const double root = parseNumber(fields[at + i]);
+    const double root = numberField(fields[at + i]);
     element[i] = root * std::abs(root);
   }
   Matrix3 covariance;
@@ -188,7 +188,7 @@ Matrix3 parseCovariance(const Fields& fields, std::size_t at) {
 }
 
 RtklibQuality parseQuality(const std::string& field) {
-  const int value = parseInteger(field);
+  const int value = integerField(field);
   if (value < static_cast<int>(RtklibQuality::kFix) || value > static_cast<int>(RtklibQuality::kDeadReckoning)) {
     throw std::invalid_argument("quality '" + field + "' is not in 1 to 7");
   }
@@ -211,7 +211,7 @@ RtklibSolution parseRow(const Header& header, const Fields& fields, const std::o
   solution.fix.covariance_ned_m2 =
       position.C_axes_to_ned * parseCovariance(fields, quality_at + 2) * position.C_axes_to_ned.transpose();
   solution.quality = parseQuality(fields[quality_at]);
-  solution.satellites = parseInteger(fields[quality_at + 1]);
+  solution.satellites = integerField(fields[quality_at + 1]);
   return solution;
 }
 

@@ -4,8 +4,8 @@
 #include <iomanip>
 #include <stdexcept>
 
+#include "fields.h"
 #include "slipnav/eval/atomic_file.h"
-#include "text.h"
 
 namespace slipnav {
 namespace {
@@ -19,10 +19,10 @@ TumPose parsePose(const std::vector<std::string>& fields) {
     throw std::invalid_argument(std::to_string(fields.size()) + " fields instead of " + std::to_string(kFields));
   }
   TumPose pose;
-  pose.stamp = parseSeconds(fields[0]);
-  pose.position_enu_m = {parseNumber(fields[1]), parseNumber(fields[2]), parseNumber(fields[3])};
+  pose.stamp = secondsField(fields[0]);
+  pose.position_enu_m = {numberField(fields[1]), numberField(fields[2]), numberField(fields[3])};
   pose.q_flu_to_enu =
-      Quaternion(parseNumber(fields[7]), parseNumber(fields[4]), parseNumber(fields[5]), parseNumber(fields[6]));
+      Quaternion(numberField(fields[7]), numberField(fields[4]), numberField(fields[5]), numberField(fields[6]));
   if (std::abs(pose.q_flu_to_enu.norm() - 1.0) > kUnitTolerance) {
     throw std::invalid_argument("the quaternion has not length one");
   }

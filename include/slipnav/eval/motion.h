@@ -10,10 +10,10 @@ namespace slipnav {
 
 /// Path length of noisy positions.
 ///
-/// The speed at each epoch is the slope of a cubic fitted to the positions around it, and the distance its integral:
-/// a sum of chords would grow by the noise of every sample, even at standstill. Slopes below the standstill speed
-/// count as zero, judged by a straight-line fit over the same window, which is less noisy. Across gaps, and in pieces
-/// of truth too short for the fit, the distance is that of the straight line.
+/// The speed at each epoch is the slope of a cubic fitted to the positions around it, taken along the straight line
+/// fitted to the same positions, and the distance is its integral. A sum of chords would grow by the noise of every
+/// sample, even at standstill. Where the straight line is slower than the standstill speed, nothing is added. Across
+/// gaps, and in pieces of truth too short for a fit, the distance is that of the straight line.
 struct DistanceOptions {
   double half_window_s = 1.0;          ///< the fit takes the samples this near; at least two on either side
   double standstill_speed_mps = 0.03;  ///< slower is standing

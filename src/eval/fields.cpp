@@ -1,11 +1,10 @@
-#include "text.h"
+#include "fields.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
+
+#include "slipnav/config/text.h"
 
 namespace slipnav {
 namespace {
@@ -21,18 +20,6 @@ bool allDigits(const std::string& text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-template <class Number>
-Number parse(const std::string& field, const char* kind) {
-  std::istringstream in(field);
-  in.imbue(std::locale::classic());
-  Number value{};
-  in >> value;
-  if (in.fail() || in.peek() != std::istringstream::traits_type::eof()) {
-    throw std::invalid_argument("'" + field + "' is not " + kind);
-  }
-  return value;
-}
-
 }  // namespace
 
 std::vector<std::string> splitFields(const std::string& line, const char* separators) {
@@ -46,17 +33,21 @@ std::vector<std::string> splitFields(const std::string& line, const char* separa
   return fields;
 }
 
-double parseNumber(const std::string& field) {
-  const auto value = parse<double>(field, "a number");
-  if (!std::isfinite(value)) {
-    throw std::invalid_argument("'" + field + "' is not a finite number");
+double numberField(const std::string& field) {
+  if (const auto value = parseNumber(field)) {
+    return *value;
   }
-  return value;
+  throw std::invalid_argument("'" + field + "' is not a number");
 }
 
-int parseInteger(const std::string& field) { return parse<int>(field, "a whole number"); }
+int integerField(const std::string& field) {
+  if (const auto value = parseInteger(field)) {
+    return *value;
+  }
+  throw std::invalid_argument("'" + field + "' is not a whole number");
+}
 
-Nanoseconds parseSeconds(const std::string& field) {
+Nanoseconds secondsField(const std::string& field) {
   const bool is_negative = !field.empty() && field.front() == '-';
   const std::string digits = field.substr(is_negative ? 1 : 0);
   const std::size_t point = std::min(digits.find('.'), digits.size());
@@ -65,12 +56,12 @@ Nanoseconds parseSeconds(const std::string& field) {
   if (whole.empty() || whole.size() > kMaxWholeDigits || !allDigits(whole) || !allDigits(decimals)) {
     throw std::invalid_argument("'" + field + "' is not a time in seconds");
   }
-  const auto seconds = parse<Nanoseconds>(whole, "a time in seconds");
+  const Nanoseconds seconds = std::stoll(whole);
   if (seconds > kMaxWholeSeconds) {
     throw std::invalid_argument("time of '" + field + "' s is out of range");
   }
-  decimals.resize(kDecimals, '0');
-  const Nanoseconds t = seconds * kSecond + parse<Nanoseconds>(decimals, "a time in seconds");
+  decimals.append(kDecimals, '0');
+  const Nanoseconds t = seconds * kSecond + std::stoll(decimals.substr(0, kDecimals));
   return is_negative ? -t : t;
 }
 

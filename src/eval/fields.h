@@ -12,16 +12,16 @@ namespace slipnav {
 std::vector<std::string> splitFields(const std::string& line, const char* separators = " \t\r");
 
 /// The finite number that makes up the whole field. Throws std::invalid_argument that quotes anything else.
-double parseNumber(const std::string& field);
+double numberField(const std::string& field);
 
-/// As parseNumber(), for a whole number.
-int parseInteger(const std::string& field);
+/// As numberField(), for a whole number.
+int integerField(const std::string& field);
 
 /// Seconds in plain decimal notation to nanoseconds, exact to the ninth decimal; further ones are cut off. Throws
 /// std::invalid_argument that quotes anything else.
-Nanoseconds parseSeconds(const std::string& field);
+Nanoseconds secondsField(const std::string& field);
 
-/// Seconds with nine decimals, exact; the inverse of parseSeconds().
+/// Seconds with nine decimals, exact; the inverse of secondsField().
 std::string formatSeconds(Nanoseconds t);
 
 }  // namespace slipnav
