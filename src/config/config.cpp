@@ -26,9 +26,43 @@ void mergeOverride(const Override& item, YAML::Node& merged) {
 
 }  // namespace
 
+void ImuConfig::visit(ParameterVisitor& v) {
+  v.group("noise", noise, "as in the data sheet");
+  v.group("input", input, "how samples are taken and checked");
+  v.group("mount", mount, "where the sensor is");
+}
+
 void Config::visit(ParameterVisitor& v) {
   v.choice("planet", planet, {"earth", "mars", "moon"}, "whose ellipsoid, gravity and rotation hold");
   v.group("topics", topics, "what the robot or the recording calls each topic");
+  v.group("imu", imu, "the inertial sensor");
+  v.group("gps_mount", gps_mount, "where the antenna of gps/fix is");
+  v.group("truth_mount", truth_mount, "where the point is whose position the truth topics give");
+  v.list("wheels", wheels, "driven wheels, in the order of slip messages");
+  v.group("wheel", wheel, "what the wheels' speeds are worth");
+  v.group("vehicle", vehicle, "how vehicle and ground behave between measurements");
+  v.group("nonholonomic", nonholonomic, "what it is worth that the rover moves along its wheels");
+  v.group("zero_motion", zero_motion, "what standstill is worth");
+  v.group("stationary", stationary, "when the rover counts as standing still");
+  v.group("filter", filter, "error-state Kalman filter");
+  v.group("initialization", initialization, "how the start is found");
+  v.group("simulator", simulator, "the simulated rover, its ground and its sensors");
+}
+
+NavigationSetup Config::navigation() const {
+  NavigationSetup setup;
+  setup.imu_input = imu.input;
+  setup.initialization = initialization;
+  setup.filter.filter = filter;
+  setup.filter.imu = imu.noise;
+  setup.filter.vehicle = vehicle;
+  setup.filter.wheel = wheel;
+  setup.filter.nonholonomic = nonholonomic;
+  setup.filter.zero = zero_motion;
+  setup.filter.stationary = stationary;
+  setup.filter.lever_imu_to_reference_b = -imu.mount.position_b();
+  setup.filter.lever_imu_to_antenna_b = gps_mount.position_b() - imu.mount.position_b();
+  return setup;
 }
 
 Config Config::load(const std::vector<std::string>& yaml_files, const std::vector<Override>& overrides) {

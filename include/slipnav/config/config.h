@@ -7,14 +7,43 @@
 #include "slipnav/config/override.h"
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/config/topics.h"
+#include "slipnav/earth/planet.h"
+#include "slipnav/measurement/imu_mount.h"
+#include "slipnav/measurement/wheel_geometry.h"
+#include "slipnav/navigator/pipeline.h"
+#include "slipnav/sim/params.h"
 
 namespace slipnav {
+
+/// The inertial sensor: noise, mounting and how its samples are taken.
+struct ImuConfig {
+  ImuNoiseParams noise;
+  ImuInputParams input;
+  MountParams mount;
+  void visit(ParameterVisitor& v);
+};
 
 struct Config {
   std::string planet = "earth";
   TopicNames topics;
+  ImuConfig imu;
+  MountParams gps_mount;
+  MountParams truth_mount;
+  std::vector<WheelParams> wheels = pathfinderWheels();
+  WheelOdometryParams wheel;
+  VehicleModelParams vehicle;
+  NonholonomicParams nonholonomic;
+  ZeroMotionParams zero_motion;
+  StationaryParams stationary;
+  FilterParams filter;
+  InitializationParams initialization;
+  sim::SimulatorParams simulator;
 
   void visit(ParameterVisitor& v);
+
+  /// The part that mechanisation, filter and initialisation are made from.
+  NavigationSetup navigation() const;
+  WheelGeometry wheelGeometry() const { return {wheels, wheel.scrub_factor}; }
 
   /// Reads YAML files over the defaults: blocks are merged, of a value or list given twice the later one wins; then the
   /// overrides in their order. Throws std::invalid_argument of one line that names the file or override, the key and

@@ -1,0 +1,61 @@
+#pragma once
+/// A whole drive through the navigation as fast as it goes, and what there is to say about it afterwards.
+
+#include <optional>
+#include <vector>
+
+#include "slipnav/config/config.h"
+#include "slipnav/eval/alignment.h"
+#include "slipnav/eval/planar_dead_reckoning.h"
+#include "slipnav/eval/report.h"
+#include "slipnav/navigator/output.h"
+#include "slipnav/navigator/pipeline.h"
+
+namespace slipnav {
+
+/// How truth is laid over the estimate.
+struct TruthAlignment {
+  std::optional<StartAlignment> at_start;    ///< for truth in a frame of its own
+  std::optional<double> heading_distance_m;  ///< turn truth to fit the first metres, for fixes too poor to tell more
+};
+
+class OfflineRun {
+ public:
+  /// @param with_baselines also run the pipeline without zero updates, for no_zupt_error_pct
+  OfflineRun(const Config& config, bool with_baselines);
+
+  void push(const ImuSample& sample);
+  void push(const WheelMotion& wheels);
+  void push(const PositionFix& fix);
+  void setTruth(const NavState& truth, bool has_attitude);
+
+  /// Truth for metrics and plots only.
+  void addTruthFix(const GnssFix& fix) { truth_fixes_.push_back(fix); }
+  void addTruthPose(const TruthSample& pose) { truth_poses_.push_back(pose); }
+
+  const Pipeline& pipeline() const { return pipeline_; }
+  /// Whether the last wheel interval was judged a standstill.
+  bool isStationary() const { return !estimates_.empty() && estimates_.back().stationary; }
+
+  /// Throws std::runtime_error when the initialisation never ended, saying what it was waiting for.
+  RunReport finish(const TruthAlignment& alignment) const;
+
+ private:
+  void record(const Estimate& estimate, const ErrorCovariance& P);
+  TruthTrack truthTrack(const TruthAlignment& alignment) const;
+  std::optional<double> slipOf(const Estimate& estimate) const;
+
+  Config config_;
+  Planet planet_;
+  Pipeline pipeline_;
+  std::optional<OutputMaker> output_;
+  EstimateTrack estimates_;
+  std::optional<double> slip_;
+  PlanarDeadReckoning wheel_only_;
+  bool wheel_only_started_ = false;
+  std::unique_ptr<OfflineRun> without_zupt_;
+  std::vector<GnssFix> truth_fixes_;
+  std::vector<TruthSample> truth_poses_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,58 @@
+#pragma once
+/// From samples in core axes to estimates: initialisation, mechanisation and filter in one object, for offline use.
+
+#include <cstdint>
+#include <optional>
+
+#include "slipnav/navigator/initializer.h"
+#include "slipnav/navigator/navigator.h"
+
+namespace slipnav {
+
+/// Everything the navigation is made from.
+struct NavigationSetup {
+  ImuInputParams imu_input;
+  InitializationParams initialization;
+  FilterSetup filter;
+};
+
+/// Samples that came in and what became of them.
+struct SampleCounts {
+  std::uint64_t imu = 0;
+  std::uint64_t wheels = 0;
+  std::uint64_t rejected = 0;
+  std::uint64_t gaps = 0;
+  std::uint64_t restarts = 0;  ///< times the clock went back and all began anew
+};
+
+class Pipeline {
+ public:
+  Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEngine::EstimateSink sink);
+
+  void push(const ImuSample& sample);
+  void push(const WheelMotion& wheels);
+  /// Satellite position; has no effect once the initialisation has ended.
+  void push(const PositionFix& fix);
+  /// For the initialisation source `truth`.
+  void setTruth(const NavState& truth, bool has_attitude);
+
+  /// Where the estimate started, once it has.
+  const std::optional<InitialState>& initial() const { return initial_; }
+  const Initializer& initializer() const { return initializer_; }
+  const FilterEngine& filter() const { return navigator_.filter(); }
+  const SampleCounts& counts() const { return counts_; }
+
+ private:
+  void tryToStart();
+  void restart();
+
+  Planet planet_;
+  NavigationSetup setup_;
+  FilterEngine::EstimateSink sink_;
+  Initializer initializer_;
+  Navigator navigator_;
+  std::optional<InitialState> initial_;
+  SampleCounts counts_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,133 @@
+#include "slipnav/eval/offline_run.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "slipnav/math/rotation.h"
+#include "slipnav/slip/slip_ratio.h"
+
+namespace slipnav {
+namespace {
+
+constexpr double kSlowestSpeedForSlip_mps = 0.05;
+
+Config withoutZeroUpdates(Config config) {
+  std::vector<std::string>& updates = config.filter.updates;
+  updates.erase(std::remove_if(updates.begin(), updates.end(),
+                               [](const std::string& update) { return update == "zupt" || update == "zaru"; }),
+                updates.end());
+  return config;
+}
+
+}  // namespace
+
+OfflineRun::OfflineRun(const Config& config, bool with_baselines)
+    : config_(config),
+      planet_(Planet::byName(config.planet)),
+      pipeline_(planet_, config.navigation(),
+                [this](const Estimate& estimate, const ErrorCovariance& P) { record(estimate, P); }) {
+  if (with_baselines) {
+    without_zupt_ = std::make_unique<OfflineRun>(withoutZeroUpdates(config), false);
+  }
+}
+
+void OfflineRun::push(const ImuSample& sample) {
+  wheel_only_.addImu(sample);
+  pipeline_.push(sample);
+  if (without_zupt_) {
+    without_zupt_->push(sample);
+  }
+}
+
+void OfflineRun::push(const WheelMotion& wheels) {
+  wheel_only_.addSpeed({wheels.stamp, wheels.motion.forward_mps});
+  pipeline_.push(wheels);
+  if (without_zupt_) {
+    without_zupt_->push(wheels);
+  }
+}
+
+void OfflineRun::push(const PositionFix& fix) {
+  pipeline_.push(fix);
+  if (without_zupt_) {
+    without_zupt_->push(fix);
+  }
+}
+
+void OfflineRun::setTruth(const NavState& truth, bool has_attitude) {
+  pipeline_.setTruth(truth, has_attitude);
+  if (without_zupt_) {
+    without_zupt_->setTruth(truth, has_attitude);
+  }
+}
+
+std::optional<double> OfflineRun::slipOf(const Estimate& estimate) const {
+  if (estimate.stationary) {
+    return std::nullopt;
+  }
+  return slipRatio(estimate.motion.v_eb_b.x(), estimate.wheels.motion.forward_mps, kSlowestSpeedForSlip_mps);
+}
+
+void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
+  if (!output_ || estimate.sequence == 0) {  // a new start, also after the clock went back
+    output_.emplace(planet_, pipeline_.initial()->origin, -config_.imu.mount.position_b(),
+                    pipeline_.filter().dynamics().gyroNoiseDensity());
+    estimates_.clear();
+  }
+  if (estimate.has_wheels) {
+    slip_ = slipOf(estimate);
+  }
+  const Output out = output_->make(estimate, P);
+  estimates_.push_back({out.stamp, out.position_enu_m, out.pose_covariance.topLeftCorner<3, 3>(), out.q_flu_to_enu,
+                        out.velocity_flu_mps.x(), slip_, estimate.stationary});
+  if (!wheel_only_started_) {
+    wheel_only_started_ = true;
+    const Vector3 forward_enu = out.q_flu_to_enu * Vector3::UnitX();
+    wheel_only_.start(
+        {out.stamp, out.position_enu_m.x(), out.position_enu_m.y(), std::atan2(forward_enu.x(), forward_enu.y())});
+  }
+}
+
+TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment) const {
+  TruthTrack truth =
+      truth_poses_.empty() ? TruthTrack::fromFixes(truth_fixes_, output_->frame()) : TruthTrack(truth_poses_);
+  if (truth.empty()) {
+    return truth;
+  }
+  if (alignment.at_start) {
+    truth = alignAtStart(truth, estimates_, *alignment.at_start);
+  }
+  const Vector3 lever_flu(config_.truth_mount.x_m, config_.truth_mount.y_m, config_.truth_mount.z_m);
+  if (!lever_flu.isZero()) {
+    truth = removeLeverArm(truth, estimates_, lever_flu);
+  }
+  return alignment.heading_distance_m ? alignHeading(truth, estimates_, *alignment.heading_distance_m) : truth;
+}
+
+RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
+  if (estimates_.empty()) {
+    throw std::runtime_error("the initialisation did not end: " + pipeline_.initializer().progress());
+  }
+  RunReport report;
+  report.estimates = estimates_;
+  report.truth = truthTrack(alignment);
+  MetricsInput input;
+  input.estimates = estimates_;
+  input.truth = report.truth;
+  input.wheel_only = wheel_only_.track();
+  const SampleCounts& counts = pipeline_.counts();
+  input.counters.imu_samples = static_cast<std::int64_t>(counts.imu);
+  input.counters.wheel_samples = static_cast<std::int64_t>(counts.wheels);
+  input.counters.rejected_samples = static_cast<std::int64_t>(counts.rejected);
+  if (without_zupt_ && !without_zupt_->estimates_.empty()) {
+    MetricsInput plain;
+    plain.estimates = without_zupt_->estimates_;
+    plain.truth = report.truth;
+    input.no_zupt_error_pct = computeMetrics(plain).enu_error_pct;
+  }
+  report.metrics = computeMetrics(input);
+  return report;
+}
+
+}  // namespace slipnav

@@ -1,0 +1,34 @@
+#include "slipnav/eval/simulated_drive.h"
+
+#include "slipnav/filter/error_state.h"
+
+namespace slipnav {
+
+void simulateDrive(const sim::SimulatorParams& params, const Planet& planet, StopPolicy& policy,
+                   const DriveSink& sink) {
+  sim::RoverSimulator rover(params, planet);
+  sim::Driver driver(params);
+  while (!driver.finished()) {
+    const sim::TruthState& truth = rover.truth();
+    const bool hold = driver.initialisationDriveDone() && policy.hold(truth.stamp, truth.standstill);
+    const sim::Measurements measurements = rover.step(driver.command(truth, hold));
+    sink(measurements, rover.truth());
+  }
+}
+
+NavState toNavState(const sim::TruthState& truth, const Planet& planet, const Vector3& imu_position_b) {
+  NavState state;
+  state.stamp = truth.stamp;
+  state.q_b_to_n = truth.q_b_to_n;
+  const Vector3 omega_ie_b = truth.q_b_to_n.conjugate() * planet.omega_ie_n(truth.position.latitude_rad);
+  state.v_eb_n = truth.v_eb_n + truth.q_b_to_n * (truth.omega_ib_b - omega_ie_b).cross(imu_position_b);
+  state.position = truth.position;
+  state.accel_bias_b = truth.accel_bias_mps2;
+  state.gyro_bias_b = truth.gyro_bias_radps;
+  ErrorVector lever = ErrorVector::Zero();
+  lever.segment<3>(kPosition) = -(truth.q_b_to_n * imu_position_b);
+  subtractError(planet, lever, state);
+  return state;
+}
+
+}  // namespace slipnav

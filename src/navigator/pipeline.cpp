@@ -1,0 +1,72 @@
+#include "slipnav/navigator/pipeline.h"
+
+#include <utility>
+
+namespace slipnav {
+
+Pipeline::Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEngine::EstimateSink sink)
+    : planet_(planet),
+      setup_(setup),
+      sink_(std::move(sink)),
+      initializer_(planet, setup.initialization, setup.imu_input, setup.filter),
+      navigator_(planet, setup.imu_input, setup.filter) {}
+
+void Pipeline::restart() {
+  initializer_.reset();
+  navigator_ = Navigator(planet_, setup_.imu_input, setup_.filter);
+  initial_.reset();
+  ++counts_.restarts;
+}
+
+void Pipeline::push(const ImuSample& sample) {
+  ++counts_.imu;
+  ImuVerdict verdict = navigator_.push(sample, sink_);
+  if (verdict == ImuVerdict::kTimeWentBack) {
+    restart();
+    verdict = navigator_.push(sample, sink_);
+  }
+  if (verdict != ImuVerdict::kAccepted && verdict != ImuVerdict::kAfterGap) {
+    ++counts_.rejected;
+    return;
+  }
+  counts_.gaps += verdict == ImuVerdict::kAfterGap ? 1 : 0;
+  if (!initial_) {
+    initializer_.push(sample);
+    tryToStart();
+  }
+}
+
+void Pipeline::push(const WheelMotion& wheels) {
+  ++counts_.wheels;
+  if (!navigator_.push(wheels, sink_)) {
+    ++counts_.rejected;
+    return;
+  }
+  if (!initial_) {
+    initializer_.push(wheels);
+    tryToStart();
+  }
+}
+
+void Pipeline::push(const PositionFix& fix) {
+  if (!initial_) {
+    initializer_.push(fix);
+    tryToStart();
+  }
+}
+
+void Pipeline::setTruth(const NavState& truth, bool has_attitude) {
+  if (!initial_) {
+    initializer_.setTruth(truth, has_attitude);
+    tryToStart();
+  }
+}
+
+void Pipeline::tryToStart() {
+  initial_ = initializer_.result();
+  if (initial_) {
+    navigator_.initialise(*initial_);
+  }
+}
+
+}  // namespace slipnav

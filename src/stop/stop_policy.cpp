@@ -1,0 +1,68 @@
+#include "slipnav/stop/stop_policy.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace slipnav {
+namespace {
+
+/// Number that fills all of `text`.
+double parseSeconds(const std::string& text, const std::string& whole) {
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !std::isfinite(value)) {
+    throw std::invalid_argument("policy '" + whole + "': '" + text + "' is not a number of seconds");
+  }
+  return value;
+}
+
+}  // namespace
+
+PeriodicStops::PeriodicStops(double every_s, double hold_s) : every_s_(every_s), hold_s_(hold_s) {
+  if (!(every_s > 0.0) || !(hold_s > 0.0)) {
+    throw std::invalid_argument("periodic stops need a drive and a hold longer than zero seconds");
+  }
+}
+
+bool PeriodicStops::hold(Nanoseconds stamp, bool standstill) {
+  if (driving_since_ == 0) {
+    driving_since_ = stamp;
+  }
+  if (!holding_) {
+    holding_ = toSeconds(stamp - driving_since_) >= every_s_;
+    standing_since_ = 0;
+    return holding_;
+  }
+  if (!standstill) {
+    return true;
+  }
+  if (standing_since_ == 0) {
+    standing_since_ = stamp;
+  }
+  if (toSeconds(stamp - standing_since_) >= hold_s_) {
+    holding_ = false;
+    driving_since_ = stamp;
+  }
+  return holding_;
+}
+
+std::unique_ptr<StopPolicy> makeStopPolicy(const std::string& text) {
+  if (text == "none") {
+    return std::make_unique<NeverStop>();
+  }
+  const std::string kPeriodic = "periodic:";
+  const std::size_t colon = text.find(':', kPeriodic.size());
+  if (text.compare(0, kPeriodic.size(), kPeriodic) == 0 && colon != std::string::npos) {
+    return std::make_unique<PeriodicStops>(
+        parseSeconds(text.substr(kPeriodic.size(), colon - kPeriodic.size()), text),
+        parseSeconds(text.substr(colon + 1), text));
+  }
+  throw std::invalid_argument("policy '" + text + "' is not known (none, periodic:EVERY_S:HOLD_S)");
+}
+
+}  // namespace slipnav
