@@ -38,6 +38,23 @@ void invertLowerTriangle(const Eigen::Ref<const Eigen::MatrixXd>& l, Eigen::Ref<
   out.bottomLeftCorner(c, a) = out.bottomRightCorner(c, c).triangularView<Eigen::Lower>() * out.bottomLeftCorner(c, a);
 }
 
+// Lower triangle of out = WᵀW for lower triangular W, in the same blocks: [AᵀA + BᵀB ·; CᵀB CᵀC].
+void multiplyTransposedByLowerTriangle(const Eigen::Ref<const Eigen::MatrixXd>& w, Eigen::Ref<Eigen::MatrixXd> out) {
+  constexpr Eigen::Index kDirect = 32;
+  const Eigen::Index n = w.rows();
+  if (n <= kDirect) {
+    out.triangularView<Eigen::Lower>() = w.transpose() * w;
+    return;
+  }
+  const Eigen::Index a = n / 2;
+  const Eigen::Index c = n - a;
+  multiplyTransposedByLowerTriangle(w.topLeftCorner(a, a), out.topLeftCorner(a, a));
+  multiplyTransposedByLowerTriangle(w.bottomRightCorner(c, c), out.bottomRightCorner(c, c));
+  out.topLeftCorner(a, a).selfadjointView<Eigen::Lower>().rankUpdate(w.bottomLeftCorner(c, a).transpose());
+  out.bottomLeftCorner(c, a) =
+      w.bottomRightCorner(c, c).triangularView<Eigen::Lower>().transpose() * w.bottomLeftCorner(c, a);
+}
+
 }  // namespace
 
 DenseGaussianProcess::DenseGaussianProcess(KernelPtr latent)
@@ -91,8 +108,8 @@ void DenseGaussianProcess::likelihoodGradient(Eigen::VectorXd& gradient) {
   const Eigen::Index n = times_.size();
   inverse_factor_.setZero(n, n);
   invertLowerTriangle(factor_, inverse_factor_);
-  precision_.setZero(n, n);
-  precision_.selfadjointView<Eigen::Lower>().rankUpdate(inverse_factor_.transpose());
+  precision_.resize(n, n);
+  multiplyTransposedByLowerTriangle(inverse_factor_, precision_);
   weights_.resize(n);
   gradient.setZero(parameterCount());
   for (Eigen::Index j = 0; j < n; ++j) {

@@ -20,6 +20,7 @@ const std::vector<std::pair<std::string, LatentModel>>& catalogue() {
       {"paper_bias", {kPaper, kBias}},
       {"paper_slow", {kPaper, kSlow}},
       {"brownian_matern", {kBrownianMatern52}},
+      {"rbf", {kRbf}},
       {"rbf_bias", {kRbf, kBias}},
       {"rbf_slow", {kRbf, kSlow}},
       {"matern_bias", {kMatern32, kBias}},

@@ -1,0 +1,133 @@
+#include "slipnav/forecast/hyperparameter_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlopt.hpp>
+#include <stdexcept>
+
+namespace slipnav {
+namespace {
+
+/// The objective in the optimiser's coordinates, (θ − start)/typical step, remembering the best point met.
+class Objective {
+ public:
+  Objective(GaussianProcess& process, const std::vector<LogPrior>& priors, const Eigen::VectorXd& start)
+      : process_(process), priors_(priors), start_(start), best_(start), gradient_(start.size()), step_(start.size()) {
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      step_(i) = priors[static_cast<std::size_t>(i)].typical_step;
+    }
+  }
+
+  /// Callback of NLopt.
+  static double evaluate(unsigned count, const double* x, double* gradient, void* self) {
+    return static_cast<Objective*>(self)->evaluate(count, x, gradient);
+  }
+
+  std::vector<double> toOptimizer(double LogPrior::*bound) const {
+    std::vector<double> x(priors_.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      x[i] = (priors_[i].*bound - start_(k)) / step_(k);
+    }
+    return x;
+  }
+
+  const Eigen::VectorXd& best() const { return best_; }
+  double bestValue() const { return best_value_; }
+  int evaluations() const { return evaluations_; }
+
+ private:
+  double evaluate(unsigned count, const double* x, double* gradient) {
+    ++evaluations_;
+    const Eigen::Map<const Eigen::VectorXd> scaled(x, count);
+    const Eigen::VectorXd point = start_ + scaled.cwiseProduct(step_);
+    const double value = negativeLogPosterior(process_, priors_, point, gradient == nullptr ? nullptr : &gradient_);
+    if (!std::isfinite(value)) {
+      throw std::runtime_error("hyperparameter fit: the likelihood is not finite");
+    }
+    if (gradient != nullptr) {
+      Eigen::Map<Eigen::VectorXd>(gradient, count) = gradient_.cwiseProduct(step_);
+    }
+    if (value < best_value_) {
+      best_value_ = value;
+      best_ = point;
+    }
+    return value;
+  }
+
+  GaussianProcess& process_;
+  const std::vector<LogPrior>& priors_;
+  Eigen::VectorXd start_;
+  Eigen::VectorXd best_;
+  Eigen::VectorXd gradient_;
+  Eigen::VectorXd step_;
+  double best_value_ = std::numeric_limits<double>::infinity();
+  int evaluations_ = 0;
+};
+
+FitOutcome minimize(Objective& objective, std::size_t dimension, const FitSettings& settings) {
+  nlopt::opt optimizer(nlopt::LD_SLSQP, static_cast<unsigned>(dimension));
+  optimizer.set_min_objective(&Objective::evaluate, &objective);
+  optimizer.set_lower_bounds(objective.toOptimizer(&LogPrior::lower));
+  optimizer.set_upper_bounds(objective.toOptimizer(&LogPrior::upper));
+  optimizer.set_ftol_abs(settings.tolerance);
+  optimizer.set_maxeval(settings.max_evaluations);
+  std::vector<double> x(dimension, 0.0);
+  double value = 0.0;
+  try {
+    return optimizer.optimize(x, value) == nlopt::MAXEVAL_REACHED ? FitOutcome::kBudgetSpent : FitOutcome::kConverged;
+  } catch (const nlopt::roundoff_limited&) {
+    return FitOutcome::kConverged;  // no further step improves the objective
+  } catch (const std::exception&) {
+    return FitOutcome::kFailed;
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd clampToBounds(const Eigen::VectorXd& start, const std::vector<LogPrior>& priors) {
+  Eigen::VectorXd clamped = start;
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const LogPrior& prior = priors[static_cast<std::size_t>(i)];
+    clamped(i) = std::clamp(start(i), prior.lower, prior.upper);
+  }
+  return clamped;
+}
+
+double negativeLogPosterior(GaussianProcess& process, const std::vector<LogPrior>& priors,
+                            const Eigen::VectorXd& log_parameters, Eigen::VectorXd* gradient) {
+  double value = process.negativeLogLikelihood(log_parameters, gradient);
+  for (Eigen::Index i = 0; i < log_parameters.size(); ++i) {
+    const LogPrior& prior = priors[static_cast<std::size_t>(i)];
+    const double whitened = (log_parameters(i) - prior.mean) / prior.stddev;
+    value += 0.5 * whitened * whitened;
+    if (gradient != nullptr) {
+      (*gradient)(i) += whitened / prior.stddev;
+    }
+  }
+  return value;
+}
+
+HyperparameterFit fitHyperparameters(GaussianProcess& process, const std::vector<LogPrior>& priors,
+                                     const Eigen::VectorXd& start, const FitSettings& settings) {
+  if (start.size() != process.parameterCount() || static_cast<std::size_t>(start.size()) != priors.size()) {
+    throw std::invalid_argument("hyperparameter fit: start and priors must have one entry per hyperparameter");
+  }
+  const Eigen::VectorXd clamped = clampToBounds(start, priors);
+  Objective objective(process, priors, clamped);
+  HyperparameterFit fit;
+  fit.outcome = minimize(objective, priors.size(), settings);
+  fit.evaluations = objective.evaluations();
+  fit.log_parameters = fit.outcome == FitOutcome::kFailed ? clamped : objective.best();
+  fit.objective = objective.bestValue();
+  fit.negative_log_likelihood = fit.objective;
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const LogPrior& prior = priors[static_cast<std::size_t>(i)];
+    const double whitened = (fit.log_parameters(i) - prior.mean) / prior.stddev;
+    fit.negative_log_likelihood -= 0.5 * whitened * whitened;
+  }
+  return fit;
+}
+
+}  // namespace slipnav
