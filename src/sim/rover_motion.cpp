@@ -33,7 +33,7 @@ double slipRatio(double ground_speed_mps, double surface_speed_mps) {
 RoverMotion::RoverMotion(const VehicleParams& vehicle, const GroundParams& ground, double start_heading_rad,
                          double straight_m, std::uint64_t seed)
     : vehicle_(vehicle),
-      terrain_(ground.relief, start_heading_rad, straight_m, seed),
+      terrain_(Terrain(ground.relief, start_heading_rad, straight_m, seed)),
       slip_model_(ground.slip, seed),
       radius_m_(drawRadii(vehicle, seed)),
       forward_(vehicle.acceleration_mps2),

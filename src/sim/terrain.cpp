@@ -5,12 +5,13 @@
 namespace slipnav::sim {
 namespace {
 
-constexpr int kSlopeWaves = 12;
-constexpr int kRoughnessWaves = 28;
 /// Where the firm area around the start has given way to 63 % of the terrain.
 constexpr double kFirmRadius_m = 20.0;
 /// Standard deviation of the Gaussian footprint: four contacts at half the wheelbase and half the track.
 constexpr double kFootprint_m = 0.3;
+
+/// Largest change of a wave's phase that the follower takes by its power series.
+constexpr double kMaxPhaseStep_rad = 0.25;
 
 /// Transition from the firm area (0) to the open terrain (1): 1 − exp(−(ρ/R)⁴), with its derivatives.
 struct Transition {
@@ -35,20 +36,16 @@ Transition transitionAt(const Vector2& from_centre_m) {
 Terrain::Terrain(const ReliefParams& relief, double start_heading_rad, double straight_m, std::uint64_t seed)
     : firm_centre_m_(0.5 * straight_m * Vector2(std::sin(start_heading_rad), std::cos(start_heading_rad))) {
   RandomStream stream(seed, "terrain");
-  addWaves({degToRad(relief.slope_deg), relief.slope_min_wavelength_m, relief.slope_max_wavelength_m, kSlopeWaves},
+  setWaves({degToRad(relief.slope_deg), relief.slope_min_wavelength_m, relief.slope_max_wavelength_m, 0, kSlopeWaves},
            stream);
-  addWaves({degToRad(relief.roughness_deg), relief.roughness_min_wavelength_m, relief.roughness_max_wavelength_m,
-            kRoughnessWaves},
+  setWaves({degToRad(relief.roughness_deg), relief.roughness_min_wavelength_m, relief.roughness_max_wavelength_m,
+            kSlopeWaves, kRoughnessWaves},
            stream);
-  centre_height_m_ = openTerrainAt(firm_centre_m_).height_m;
-  start_height_m_ = blendedAt(Vector2::Zero()).height_m;
+  centre_height_m_ = openTerrain(phasesAt(firm_centre_m_)).height_m;
+  start_height_m_ = at(Vector2::Zero()).height_m;
 }
 
-void Terrain::addWaves(const Band& band, RandomStream& stream) {
-  const Eigen::Index old_count = phase_rad_.size();
-  for (Eigen::ArrayXd* field : {&wave_east_per_m_, &wave_north_per_m_, &phase_rad_, &amplitude_m_}) {
-    field->conservativeResize(old_count + band.count);
-  }
+void Terrain::setWaves(const Band& band, RandomStream& stream) {
   // a cosine of slope s in a random direction has mean square slope s²/4 along a track
   const double wave_slope = 2.0 * band.slope_rad / std::sqrt(static_cast<double>(band.count));
   for (int i = 0; i < band.count; ++i) {
@@ -57,7 +54,7 @@ void Terrain::addWaves(const Band& band, RandomStream& stream) {
     const double wave_number = 2.0 * kPi / wavelength_m;
     const double direction = stream.uniform(0.0, 2.0 * kPi);
     const double smoothing = std::exp(-0.5 * std::pow(wave_number * kFootprint_m, 2));
-    const Eigen::Index k = old_count + i;
+    const int k = band.first + i;
     wave_east_per_m_[k] = wave_number * std::sin(direction);
     wave_north_per_m_[k] = wave_number * std::cos(direction);
     phase_rad_[k] = stream.uniform(0.0, 2.0 * kPi);
@@ -65,35 +62,31 @@ void Terrain::addWaves(const Band& band, RandomStream& stream) {
   }
 }
 
-SurfacePoint Terrain::openTerrainAt(const Vector2& east_north_m) const {
+Terrain::Phases Terrain::phasesAt(const Vector2& east_north_m) const {
+  const PerWave phase = wave_east_per_m_ * east_north_m.x() + wave_north_per_m_ * east_north_m.y() + phase_rad_;
+  return {phase.cos(), phase.sin()};
+}
+
+SurfacePoint Terrain::openTerrain(const Phases& phases) const {
+  const PerWave height = amplitude_m_ * phases.cosine;
+  const PerWave slope = -amplitude_m_ * phases.sine;
   SurfacePoint point;
   point.looseness = 1.0;
-  double& east_east = point.hessian_per_m(0, 0);
-  double& east_north = point.hessian_per_m(0, 1);
-  double& north_north = point.hessian_per_m(1, 1);
-  for (Eigen::Index i = 0; i < phase_rad_.size(); ++i) {
-    const double ke = wave_east_per_m_[i];
-    const double kn = wave_north_per_m_[i];
-    const double angle = ke * east_north_m.x() + kn * east_north_m.y() + phase_rad_[i];
-    const double height = amplitude_m_[i] * std::cos(angle);
-    const double slope = -amplitude_m_[i] * std::sin(angle);
-    point.height_m += height;
-    point.gradient += slope * Vector2(ke, kn);
-    east_east -= height * ke * ke;
-    east_north -= height * ke * kn;
-    north_north -= height * kn * kn;
-  }
-  point.hessian_per_m(1, 0) = east_north;
+  point.height_m = height.sum();
+  point.gradient << (slope * wave_east_per_m_).sum(), (slope * wave_north_per_m_).sum();
+  const double east_north = -(height * wave_east_per_m_ * wave_north_per_m_).sum();
+  point.hessian_per_m << -(height * wave_east_per_m_.square()).sum(), east_north, east_north,
+      -(height * wave_north_per_m_.square()).sum();
   return point;
 }
 
-SurfacePoint Terrain::blendedAt(const Vector2& east_north_m) const {
-  SurfacePoint open = openTerrainAt(east_north_m);
+SurfacePoint Terrain::blended(const Vector2& east_north_m, const Phases& phases) const {
+  SurfacePoint open = openTerrain(phases);
   open.height_m -= centre_height_m_;
   const Transition blend = transitionAt(east_north_m - firm_centre_m_);
   SurfacePoint point;
   point.looseness = blend.value;
-  point.height_m = blend.value * open.height_m;
+  point.height_m = blend.value * open.height_m - start_height_m_;
   point.gradient = blend.value * open.gradient + open.height_m * blend.gradient;
   const Eigen::Matrix2d mixed = blend.gradient * open.gradient.transpose();
   point.hessian_per_m =
@@ -101,10 +94,30 @@ SurfacePoint Terrain::blendedAt(const Vector2& east_north_m) const {
   return point;
 }
 
-SurfacePoint Terrain::at(const Vector2& east_north_m) const {
-  SurfacePoint point = blendedAt(east_north_m);
-  point.height_m -= start_height_m_;
-  return point;
+SurfacePoint Terrain::at(const Vector2& east_north_m) const { return blended(east_north_m, phasesAt(east_north_m)); }
+
+TerrainFollower::TerrainFollower(const Terrain& terrain)
+    : terrain_(terrain), anchor_phases_(terrain_.phasesAt(anchor_m_)) {
+  const double shortest_wave =
+      std::sqrt((terrain_.wave_east_per_m_.square() + terrain_.wave_north_per_m_.square()).maxCoeff());
+  reach_m_ = kMaxPhaseStep_rad / shortest_wave;
+}
+
+SurfacePoint TerrainFollower::at(const Vector2& east_north_m) {
+  if ((east_north_m - anchor_m_).squaredNorm() > reach_m_ * reach_m_) {
+    anchor_m_ = east_north_m;
+    anchor_phases_ = terrain_.phasesAt(anchor_m_);
+  }
+  const Vector2 step_m = east_north_m - anchor_m_;
+  const Terrain::PerWave x = terrain_.wave_east_per_m_ * step_m.x() + terrain_.wave_north_per_m_ * step_m.y();
+  const Terrain::PerWave x2 = x.square();
+  // power series to x⁹ and x¹⁰: within the reach the rest is below rounding
+  const Terrain::PerWave sine =
+      x * (1.0 + x2 * (-1.0 / 6.0 + x2 * (1.0 / 120.0 + x2 * (-1.0 / 5040.0 + x2 * (1.0 / 362880.0)))));
+  const Terrain::PerWave cosine =
+      1.0 + x2 * (-0.5 + x2 * (1.0 / 24.0 + x2 * (-1.0 / 720.0 + x2 * (1.0 / 40320.0 + x2 * (-1.0 / 3628800.0)))));
+  return terrain_.blended(east_north_m, {anchor_phases_.cosine * cosine - anchor_phases_.sine * sine,
+                                         anchor_phases_.sine * cosine + anchor_phases_.cosine * sine});
 }
 
 }  // namespace slipnav::sim

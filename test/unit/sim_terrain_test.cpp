@@ -36,6 +36,19 @@ TEST(SimTerrain, DerivativesMatchDifferencesFromTheStartOutwards) {
   }
 }
 
+TEST(SimTerrain, FollowerAgreesToRounding) {
+  const Terrain terrain = terrainOf("rough", 5);
+  TerrainFollower follower(terrain);
+  for (int i = 0; i < 20000; ++i) {
+    const Vector2 place(0.003 * i, 0.002 * i);
+    const SurfacePoint exact = terrain.at(place);
+    const SurfacePoint quick = follower.at(place);
+    ASSERT_NEAR(quick.height_m, exact.height_m, 1e-13);
+    ASSERT_LT((quick.gradient - exact.gradient).norm(), 1e-13);
+    ASSERT_LT((quick.hessian_per_m - exact.hessian_per_m).norm(), 1e-12);
+  }
+}
+
 TEST(SimTerrain, StartsAtHeightZeroOnNearlyLevelFirmGround) {
   for (const char* name : kTerrainNames) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -51,7 +51,7 @@ class RoverMotion {
   void turnWheels(const Slippage& slippage, double yaw_rate_radps);
 
   VehicleParams vehicle_;
-  Terrain terrain_;
+  TerrainFollower terrain_;
   SlipModel slip_model_;
   PerWheel radius_m_;
   SpeedRamp forward_;
