@@ -75,8 +75,8 @@ GroundParams rough() {
   GroundParams g;
   g.relief.slope_deg = 4.5;
   g.relief.roughness_deg = 2.5;
-  g.slip.mean = 0.08;
-  g.slip.mean_spread = 0.15;
+  g.slip.mean = 0.086;
+  g.slip.mean_spread = 0.1;
   g.slip.climb = 0.6;
   g.slip.sinkage = 1.2;
   g.slip.fast = 0.055;

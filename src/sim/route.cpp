@@ -8,7 +8,20 @@
 namespace slipnav::sim {
 namespace {
 
+struct Span {
+  double min;
+  double max;
+
+  double draw(RandomStream& stream) const { return stream.uniform(min, max); }
+};
+
 constexpr double kSpacing_m = 0.1;
+/// The operator tacks: legs lie alternately left and right of a bearing that wanders a little from leg to leg.
+constexpr double kBearingWander_deg = 7.0;
+constexpr Span kTack_deg{25.0, 57.0};
+constexpr Span kLeg_m{15.0, 50.0};
+constexpr Span kTurnRadius_m{2.5, 6.0};
+constexpr double kMaxBend_per_m = 0.05;
 
 std::size_t steps(double length_m) { return static_cast<std::size_t>(std::ceil(length_m / kSpacing_m)); }
 
@@ -21,22 +34,26 @@ Route::Route(std::uint64_t seed, double straight_m, double length_m) {
   while (points_.size() <= steps(straight_m)) {
     append(0.0);
   }
-  // the operator tacks about a slowly wandering bearing: a leg with a gentle double bend, then a turn to the other side
   double side = stream.uniform() < 0.5 ? -1.0 : 1.0;
   while (points_.size() <= steps(length_m)) {
-    bearing_rad += degToRad(12.0) * stream.normal();
-    const double target_rad = bearing_rad + side * degToRad(stream.uniform(25.0, 60.0));
-    const double turn_rad = wrapToPi(target_rad - points_.back().heading_rad);
-    const double radius_m = stream.uniform(2.5, 6.0);
-    for (std::size_t i = steps(std::abs(turn_rad) * radius_m); i > 0; --i) {
-      append(std::copysign(1.0 / radius_m, turn_rad));
-    }
-    const std::size_t leg = steps(stream.uniform(15.0, 50.0));
-    const double bend_per_m = stream.uniform(-0.05, 0.05);
-    for (std::size_t i = 0; i < leg; ++i) {
-      append(bend_per_m * std::sin(2.0 * kPi * static_cast<double>(i) / static_cast<double>(leg)));
-    }
+    bearing_rad += degToRad(kBearingWander_deg) * stream.normal();
+    appendTurn(bearing_rad + side * degToRad(kTack_deg.draw(stream)), kTurnRadius_m.draw(stream));
+    appendLeg(kLeg_m.draw(stream), stream.uniform(-kMaxBend_per_m, kMaxBend_per_m));
     side = -side;
+  }
+}
+
+void Route::appendTurn(double heading_rad, double radius_m) {
+  const double turn_rad = wrapToPi(heading_rad - points_.back().heading_rad);
+  for (std::size_t i = steps(std::abs(turn_rad) * radius_m); i > 0; --i) {
+    append(std::copysign(1.0 / radius_m, turn_rad));
+  }
+}
+
+void Route::appendLeg(double length_m, double bend_per_m) {
+  const std::size_t count = steps(length_m);
+  for (std::size_t i = 0; i < count; ++i) {
+    append(bend_per_m * std::sin(2.0 * kPi * static_cast<double>(i) / static_cast<double>(count)));
   }
 }
 

@@ -16,6 +16,8 @@ constexpr double kTrackCorrelation_m = 4.0;
 /// Part of the fast slip's variance that both sides share.
 constexpr double kSharedFast = 0.7;
 
+constexpr double kSideImpulses = 0.35;        // part of the impulses that take one side,
+constexpr double kWheelImpulses = 0.3;        // and one wheel; the rest take all four
 constexpr double kImpulseMinLength_m = 0.3;   // 0.4 s at 0.8 m/s
 constexpr double kImpulseMaxLength_m = 1.6;   // 2 s at 0.8 m/s
 constexpr double kOtherSideShare = 0.6;       // a side that loses grip drags the whole rigid body
@@ -60,13 +62,13 @@ SlipModel::Impulse SlipModel::drawImpulse() {
   const double kind = impulse_stream_.uniform();
   const auto wheel = static_cast<std::size_t>(static_cast<double>(kWheelCount) * impulse_stream_.uniform());
   const bool left = wheel % 2 == 0;
-  if (kind < 0.35) {  // one side
+  if (kind < kSideImpulses) {
     (left ? impulse.right_share : impulse.left_share) = kOtherSideShare;
-  } else if (kind < 0.65) {  // one wheel
+  } else if (kind < kSideImpulses + kWheelImpulses) {
     impulse.left_share = left ? kWheelBodyShare : kWheelBodyShare * kOtherSideShare;
     impulse.right_share = left ? kWheelBodyShare * kOtherSideShare : kWheelBodyShare;
     impulse.spin_share[wheel] = kWheelSpinShare;
-  }  // else all four wheels
+  }
   next_impulse_m_ -= std::log(1.0 - impulse_stream_.uniform()) / params_.impulses_per_m;
   return impulse;
 }

@@ -30,6 +30,10 @@ class Route {
 
  private:
   void append(double curvature_per_m);
+  /// An arc to a heading, the shorter way round.
+  void appendTurn(double heading_rad, double radius_m);
+  /// A gentle double bend that ends with the heading it began with.
+  void appendLeg(double length_m, double bend_per_m);
 
   std::vector<RoutePoint> points_;  ///< kSpacing apart
   std::size_t nearest_ = 0;
