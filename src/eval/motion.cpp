@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 
 namespace slipnav {
@@ -98,17 +100,56 @@ Vector3 velocityAt(const Piece& piece, const Window& window, std::size_t at) {
   return coefficients.row(1).transpose() / scale_s;
 }
 
-double chordLength(const Piece& piece) {
+/// Slope at point i of the curve through the points: central difference, one-sided at the ends [m/s].
+Vector3 slopeAt(const Piece& piece, std::size_t i) {
+  const Point& before = piece[i - std::min<std::size_t>(i, 1)];
+  const Point& after = piece[std::min(i + 1, piece.size() - 1)];
+  return (after.position_m - before.position_m) / (after.t_s - before.t_s);
+}
+
+/// Length of the cubic Hermite curve from point i to the next, by three-point Gauss-Legendre quadrature.
+double curveLength(const Piece& piece, std::size_t i) {
+  const double dt_s = piece[i + 1].t_s - piece[i].t_s;
+  const Vector3 chord = piece[i + 1].position_m - piece[i].position_m;
+  const Vector3 from = slopeAt(piece, i) * dt_s;
+  const Vector3 to = slopeAt(piece, i + 1) * dt_s;
+  const double offset = 0.5 * std::sqrt(0.6);
+  const std::array<std::array<double, 2>, 3> nodes_and_weights = {
+      {{0.5 - offset, 5.0 / 18.0}, {0.5, 8.0 / 18.0}, {0.5 + offset, 5.0 / 18.0}}};
   double length_m = 0.0;
-  for (std::size_t i = 1; i < piece.size(); ++i) {
-    length_m += (piece[i].position_m - piece[i - 1].position_m).norm();
+  for (const auto& [u, weight] : nodes_and_weights) {
+    const Vector3 derivative =
+        6.0 * u * (1.0 - u) * chord + (1.0 - u) * (1.0 - 3.0 * u) * from + u * (3.0 * u - 2.0) * to;
+    length_m += weight * derivative.norm();
   }
   return length_m;
 }
 
+/// Length through points too sparse to average: they are taken as they are.
+double interpolatedLength(const Piece& piece, double standstill_speed_mps) {
+  double length_m = 0.0;
+  for (std::size_t i = 0; i + 1 < piece.size(); ++i) {
+    // noise may move one pair of points but not their neighbours with them
+    const Window pair{i, i + 2};
+    const Window neighbours{i - std::min<std::size_t>(i, 1), std::min(i + 3, piece.size())};
+    const double slower_mps = std::min(meanVelocity(piece, pair).norm(), meanVelocity(piece, neighbours).norm());
+    if (slower_mps > standstill_speed_mps) {
+      length_m += curveLength(piece, i);
+    }
+  }
+  return length_m;
+}
+
+/// Whether the fit finds, on average, as many samples within its window as it needs.
+bool isDense(const Piece& piece, double half_window_s) {
+  const double intervals = static_cast<double>(piece.size()) - 1.0;
+  return piece.size() >= kMinWindow && intervals * 2.0 * half_window_s >=
+                                           static_cast<double>(kMinWindow - 1) * (piece.back().t_s - piece.front().t_s);
+}
+
 double pieceLength(const Piece& piece, const DistanceOptions& options) {
-  if (piece.size() < kMinWindow) {
-    return chordLength(piece);
+  if (!isDense(piece, options.half_window_s)) {
+    return interpolatedLength(piece, options.standstill_speed_mps);
   }
   double length_m = 0.0;
   double previous_mps = 0.0;

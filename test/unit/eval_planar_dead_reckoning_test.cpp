@@ -65,6 +65,17 @@ TEST(PlanarDeadReckoning, takesTheBiasFromTheFirstStandstillOnly) {
   EXPECT_NEAR(planar.track().back().heading_rad, 0.02 * 20.0, 1e-9) << "the later standstill is integrated";
 }
 
+TEST(PlanarDeadReckoning, weighsTheBiasByTimeWhereWheelEpochsSplitTheGyro) {
+  PlanarDeadReckoning planar;
+  for (int i = 0; i <= 3; ++i) {
+    planar.addImu(imuAt(i, 0.1 * i));
+  }
+  planar.addSpeed({fromSeconds(0.5), 0.0});
+  planar.addSpeed({fromSeconds(1.5), 0.0});
+  planar.addSpeed({fromSeconds(3.0), 0.0});
+  EXPECT_NEAR(planar.gyroBias(), 0.2, 1e-12);
+}
+
 TEST(PlanarDeadReckoning, doesWithoutBiasAfterAShortStandstill) {
   PlanarDeadReckoning planar;
   planar.start({0, 0.0, 0.0, 0.0});

@@ -112,12 +112,12 @@ TEST(RtklibPos, readsEarthCentredCoordinates) {
 }
 
 TEST(RtklibPos, turnsEarthCentredCovariance) {
-  // on the equator at 90° east: x points west, y up, z north
+  // where equator and prime meridian meet x points up, y east, z north
   const auto solutions = parse(
       "%  GPST x-ecef(m) y-ecef(m) z-ecef(m) Q ns sdx(m) sdy(m) sdz(m) sdxy(m) sdyz(m) sdzx(m) age(s) ratio\n"
-      "2020/10/15 15:00:18.000 0 6378137 0 1 9 1 2 3 0.5 0.6 0.7 0 0\n");
+      "2020/10/15 15:00:18.000 6378137 0 0 1 9 1 2 3 0.5 0.6 0.7 0 0\n");
   Matrix3 covariance_ned;
-  covariance_ned << 9.0, -0.49, -0.36, -0.49, 1.0, 0.25, -0.36, 0.25, 4.0;
+  covariance_ned << 9.0, 0.36, -0.49, 0.36, 4.0, -0.25, -0.49, -0.25, 1.0;
   EXPECT_LT((solutions[0].fix.covariance_ned_m2 - covariance_ned).cwiseAbs().maxCoeff(), 1e-12);
 }
 
@@ -141,6 +141,8 @@ TEST(RtklibPos, namesFileAndLineOfWhatItCannotRead) {
   const std::string good = "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n";
   EXPECT_EQ(errorOf(header + good), "");
   EXPECT_EQ(errorOf(header + good + "2020/10/15 15:00:18.100 39.6 -79.9 25"), "x.pos:6: 5 fields instead of 15");
+  EXPECT_EQ(errorOf(header + "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0\n"),
+            "x.pos:5: 14 fields instead of 15");
   EXPECT_EQ(errorOf(header + "2020/10/15 15:00:18.000 39.6 -79.9x 250 1 9 .1 .1 .1 0 0 0 0 0\n"),
             "x.pos:5: '-79.9x' is not a number");
   EXPECT_EQ(errorOf(header + "2020/13/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n"),

@@ -12,10 +12,11 @@ namespace slipnav {
 ///
 /// The speed at each epoch is the slope of a cubic fitted to the positions around it, taken along the straight line
 /// fitted to the same positions, and the distance is its integral. A sum of chords would grow by the noise of every
-/// sample, even at standstill. Where the straight line is slower than the standstill speed, nothing is added. Across
-/// gaps, and in pieces of truth too short for a fit, the distance is that of the straight line.
+/// sample, even at standstill. Where the straight line is slower than the standstill speed, nothing is added. Truth
+/// too sparse for such a fit (motion capture at 1 Hz) is taken as exact: the length of the smooth curve through it.
+/// Across gaps the distance is that of the straight line.
 struct DistanceOptions {
-  double half_window_s = 1.0;          ///< the fit takes the samples this near; at least two on either side
+  double half_window_s = 1.0;          ///< the fit takes the samples this near
   double standstill_speed_mps = 0.03;  ///< slower is standing
   bool horizontal = false;             ///< leave height out: for truth whose height wanders
 };
