@@ -55,7 +55,7 @@ void OfflineRun::push(const PositionFix& fix) {
   }
 }
 
-void OfflineRun::setTruth(const NavState& truth, bool has_attitude) {
+void OfflineRun::setTruth(const NavigationState& truth, bool has_attitude) {
   pipeline_.setTruth(truth, has_attitude);
   if (without_zupt_) {
     without_zupt_->setTruth(truth, has_attitude);

@@ -16,8 +16,8 @@ void simulateDrive(const sim::SimulatorParams& params, const Planet& planet, Sto
   }
 }
 
-NavState toNavState(const sim::TruthState& truth, const Planet& planet, const Vector3& imu_position_b) {
-  NavState state;
+NavigationState toNavState(const sim::TruthState& truth, const Planet& planet, const Vector3& imu_position_b) {
+  NavigationState state;
   state.stamp = truth.stamp;
   state.q_b_to_n = truth.q_b_to_n;
   const Vector3 omega_ie_b = truth.q_b_to_n.conjugate() * planet.omega_ie_n(truth.position.latitude_rad);

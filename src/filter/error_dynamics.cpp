@@ -12,8 +12,8 @@ constexpr double kMicroG = 9.80665e-6;  // data sheets count in standard gravity
 
 double square(double x) { return x * x; }
 
-NavState midpoint(const NavState& start, const NavState& end) {
-  NavState middle = end;
+NavigationState midpoint(const NavigationState& start, const NavigationState& end) {
+  NavigationState middle = end;
   middle.q_b_to_n = start.q_b_to_n.slerp(0.5, end.q_b_to_n);
   middle.v_eb_n = 0.5 * (start.v_eb_n + end.v_eb_n);
   return middle;
@@ -89,13 +89,13 @@ ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, co
   prior_variance_(kMountYaw) = square(degToRad(vehicle.mount_yaw_std_deg));
   prior_variance_(kYawScale) = square(imu.gyro_scale_std_ppm * 1e-6);
 
-  spectral_density_.segment<3>(kAttitude)
-      .setConstant(square(degToRad(imu.gyro_noise_deg_per_sqrt_h)) / kSecondsPerHour);
+  spectral_density_.segment<3>(kAttitude).setConstant(square(degToRad(imu.gyro_noise_deg_per_sqrt_h)) /
+                                                      kSecondsPerHour);
   spectral_density_.segment<3>(kVelocity).setConstant(square(imu.accel_noise_mps_per_sqrt_h) / kSecondsPerHour);
   spectral_density_.segment<3>(kAccelBias)
       .setConstant(square(imu.accel_bias_walk_ug_per_sqrt_h * kMicroG) / kSecondsPerHour);
-  spectral_density_.segment<3>(kGyroBias)
-      .setConstant(square(degToRad(imu.gyro_bias_walk_deg_per_h_per_sqrt_h) / kSecondsPerHour) / kSecondsPerHour);
+  spectral_density_.segment<3>(kGyroBias).setConstant(
+      square(degToRad(imu.gyro_bias_walk_deg_per_h_per_sqrt_h) / kSecondsPerHour) / kSecondsPerHour);
 
   // A Gauss–Markov state of variance σ² and time constant τ is driven by white noise of density 2σ²/τ.
   const auto gaussMarkov = [this](int index, double std, double time_s) {
@@ -108,7 +108,8 @@ ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, co
   gaussMarkov(kSideSlip, std::tan(degToRad(vehicle.side_slip_std_deg)), vehicle.side_slip_time_s);
 }
 
-Eigen::Matrix<double, 9, kNavStates> ErrorDynamics::systemMatrix(const NavState& middle, const Vector3& f_ib_b) const {
+Eigen::Matrix<double, 9, kNavStates> ErrorDynamics::systemMatrix(const NavigationState& middle,
+                                                                 const Vector3& f_ib_b) const {
   const double latitude_rad = middle.position.latitude_rad;
   const double north_m = planet_.meridianRadius(latitude_rad) + middle.position.height_m;
   const double east_m = planet_.transverseRadius(latitude_rad) + middle.position.height_m;
@@ -144,9 +145,9 @@ Eigen::Matrix<double, 9, kNavStates> ErrorDynamics::systemMatrix(const NavState&
   return F;
 }
 
-ErrorTransition ErrorDynamics::transition(const NavState& start, const NavState& end, const Vector3& f_ib_b,
-                                          const Vector3& omega_ib_b, double duration_s) const {
-  const NavState middle = midpoint(start, end);
+ErrorTransition ErrorDynamics::transition(const NavigationState& start, const NavigationState& end,
+                                          const Vector3& f_ib_b, const Vector3& omega_ib_b, double duration_s) const {
+  const NavigationState middle = midpoint(start, end);
   const Eigen::Matrix<double, 9, kNavStates> F_dt = systemMatrix(middle, f_ib_b) * duration_s;
   ErrorTransition t;
   t.nav = F_dt;

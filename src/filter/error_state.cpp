@@ -6,7 +6,7 @@
 
 namespace slipnav {
 
-void subtractError(const Planet& planet, const ErrorVector& error, NavState& state) {
+void subtractError(const Planet& planet, const ErrorVector& error, NavigationState& state) {
   const double latitude_rad = state.position.latitude_rad;
   const double north_m = planet.meridianRadius(latitude_rad) + state.position.height_m;
   const double east_m = (planet.transverseRadius(latitude_rad) + state.position.height_m) * std::cos(latitude_rad);
@@ -37,7 +37,7 @@ Vector3 positionDifference(const Planet& planet, const Geodetic& estimate, const
           wrapToPi(estimate.longitude_rad - truth.longitude_rad) * east_m, truth.height_m - estimate.height_m};
 }
 
-ErrorVector errorBetween(const Planet& planet, const NavState& estimate, const NavState& truth) {
+ErrorVector errorBetween(const Planet& planet, const NavigationState& estimate, const NavigationState& truth) {
   ErrorVector error = ErrorVector::Zero();
   error.segment<3>(kAttitude) = rotationVectorFromQuaternion(estimate.q_b_to_n * truth.q_b_to_n.conjugate());
   error.segment<3>(kVelocity) = estimate.v_eb_n - truth.v_eb_n;

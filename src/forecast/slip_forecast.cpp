@@ -76,13 +76,13 @@ SlipSamples readSlipCsv(const std::string& path) {
   return samples;
 }
 
-SlipForecast forecastSlip(const SlipSamples& samples, const SlipModelParameters& parameters, double horizon_s) {
+SlipForecastResult forecastSlip(const SlipSamples& samples, const SlipModelParameters& parameters, double horizon_s) {
   const auto steps = static_cast<Eigen::Index>(std::floor(horizon_s / kSlipForecastStep_s + 1e-9));
   if (steps < 2) {
     throw std::invalid_argument("slip forecast: the horizon must be two steps of 0.1 s at least");
   }
   GaussianProcessSlipModel model(parameters);
-  SlipForecast forecast;
+  SlipForecastResult forecast;
   forecast.model = parameters.model;
   forecast.fit = model.fit(samples);
   if (!isAccepted(forecast.fit.status)) {
@@ -97,7 +97,7 @@ SlipForecast forecastSlip(const SlipSamples& samples, const SlipModelParameters&
   return forecast;
 }
 
-std::string toJson(const SlipForecast& forecast) {
+std::string toJson(const SlipForecastResult& forecast) {
   const GaussMarkovSlip& correlation = forecast.correlation;
   std::string text = "{\n";
   text += "  \"model\": \"" + forecast.model + "\",\n";

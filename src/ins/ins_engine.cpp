@@ -32,7 +32,7 @@ void InsEngine::reset() {
   period_s_ = 0.0;
 }
 
-void InsEngine::initialise(const NavState& state) {
+void InsEngine::initialise(const NavigationState& state) {
   dropUpTo(state.stamp);
   base_ = next_ = first_;
   epoch_ = 0;
@@ -106,7 +106,7 @@ std::optional<InsStep> InsEngine::step() {
   }
   const bool is_first = next_ == base_;
   Slot& current = slot(next_);
-  const NavState& start = is_first ? initial_ : slot(next_ - 1).state;
+  const NavigationState& start = is_first ? initial_ : slot(next_ - 1).state;
   ImuInterval interval = current.interval;
   if (is_first) {  // the initial state may lie inside the interval of the sample that follows it
     interval.duration_s = toSeconds(current.end - start.stamp);

@@ -29,7 +29,7 @@ Vector3 resolveAlongTurn(const Vector3& alpha, const Vector3& v) {
 
 /// Rates that vary linearly over two adjoining intervals T1, T2 give coning ½∫(α×ω)dt = k α1×α2 and sculling
 /// k (α1×υ2 + υ1×α2) with k = T2² / (6 T1 (T1+T2)), which is the customary 1/12 for equal intervals.
-Increments increments(const NavState& state, const ImuInterval& previous, const ImuInterval& current) {
+Increments increments(const NavigationState& state, const ImuInterval& previous, const ImuInterval& current) {
   const double T = current.duration_s;
   const Vector3 alpha = (current.omega_ib_b - state.gyro_bias_b) * T;
   const Vector3 upsilon = (current.f_ib_b - state.accel_bias_b) * T;
@@ -52,22 +52,21 @@ Geodetic advance(const Planet& planet, const Geodetic& start, const Vector3& v_e
   end.latitude_rad = start.latitude_rad + duration_s * v_eb_n.x() / north_m;
   const double mean_latitude_rad = 0.5 * (start.latitude_rad + end.latitude_rad);
   const double east_m = planet.transverseRadius(mean_latitude_rad) + mean_height_m;
-  end.longitude_rad =
-      wrapToPi(start.longitude_rad + duration_s * v_eb_n.y() / (east_m * std::cos(mean_latitude_rad)));
+  end.longitude_rad = wrapToPi(start.longitude_rad + duration_s * v_eb_n.y() / (east_m * std::cos(mean_latitude_rad)));
   end.height_m = start.height_m - duration_s * v_eb_n.z();
   return end;
 }
 
 }  // namespace
 
-bool isFinite(const NavState& s) {
+bool isFinite(const NavigationState& s) {
   return s.q_b_to_n.coeffs().allFinite() && s.v_eb_n.allFinite() && s.accel_bias_b.allFinite() &&
          s.gyro_bias_b.allFinite() && std::isfinite(s.position.latitude_rad) &&
          std::isfinite(s.position.longitude_rad) && std::isfinite(s.position.height_m);
 }
 
-NavState Strapdown::propagate(const NavState& state, const ImuInterval& previous, const ImuInterval& current,
-                              Nanoseconds stamp) const {
+NavigationState Strapdown::propagate(const NavigationState& state, const ImuInterval& previous,
+                                     const ImuInterval& current, Nanoseconds stamp) const {
   const double T = current.duration_s;
   const Increments body = increments(state, previous, current);
   const Vector3 dv_n_unturned = state.q_b_to_n * body.dv_b;
@@ -82,10 +81,10 @@ NavState Strapdown::propagate(const NavState& state, const ImuInterval& previous
   const Vector3 omega_en_n = planet_.omega_en_n(mid, v_mid);
   const Vector3 zeta_n = (omega_ie_n + omega_en_n) * T;
 
-  NavState next = state;
+  NavigationState next = state;
   next.stamp = stamp;
-  next.q_b_to_n = (quaternionFromRotationVector(-zeta_n) * state.q_b_to_n * quaternionFromRotationVector(body.phi_b))
-                      .normalized();
+  next.q_b_to_n =
+      (quaternionFromRotationVector(-zeta_n) * state.q_b_to_n * quaternionFromRotationVector(body.phi_b)).normalized();
   next.v_eb_n = state.v_eb_n + dv_n_unturned - 0.5 * zeta_n.cross(dv_n_unturned) +
                 (planet_.gravity_n(mid) - (2.0 * omega_ie_n + omega_en_n).cross(v_mid)) * T;
   next.position = advance(planet_, state.position, 0.5 * (state.v_eb_n + next.v_eb_n), T);

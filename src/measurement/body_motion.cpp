@@ -4,7 +4,7 @@
 
 namespace slipnav {
 
-Eigen::Matrix<double, 3, kErrorStates> bodyVelocityJacobian(const NavState& state, const Vector3& lever_b) {
+Eigen::Matrix<double, 3, kErrorStates> bodyVelocityJacobian(const NavigationState& state, const Vector3& lever_b) {
   const Matrix3 C_n_to_b = state.q_b_to_n.conjugate().toRotationMatrix();
   Eigen::Matrix<double, 3, kErrorStates> H = Eigen::Matrix<double, 3, kErrorStates>::Zero();
   H.block<3, 3>(0, kAttitude) = C_n_to_b * skew(state.v_eb_n);
@@ -13,7 +13,7 @@ Eigen::Matrix<double, 3, kErrorStates> bodyVelocityJacobian(const NavState& stat
   return H;
 }
 
-Vector3 bodyVelocity(const NavState& state, const Vector3& omega_eb_b, const Vector3& lever_b) {
+Vector3 bodyVelocity(const NavigationState& state, const Vector3& omega_eb_b, const Vector3& lever_b) {
   return state.q_b_to_n.conjugate() * state.v_eb_n + omega_eb_b.cross(lever_b);
 }
 

@@ -20,7 +20,7 @@ void NonholonomicParams::visit(ParameterVisitor& v) {
            "slip angle beyond which the lateral constraint is dropped [°]");
 }
 
-Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavState& state,
+Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavigationState& state,
                                const VehicleState& vehicle, const Vector3& lever_b) {
   const double v_x = motion.v_eb_b.x();
   const double angle = vehicle.mount_yaw_rad - vehicle.side_slip;
@@ -34,16 +34,16 @@ Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotio
   return m;
 }
 
-Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavState& state,
-                                const VehicleState& vehicle, const Vector3& lever_b) {
+Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion,
+                                const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b) {
   const double v_x = motion.v_eb_b.x();
   const Eigen::Matrix<double, 3, kErrorStates> H_v = bodyVelocityJacobian(state, lever_b);
   Measurement m(1);
   m.residual(0) = -(motion.v_eb_b.z() - vehicle.mount_pitch_rad * v_x);
   m.H = H_v.row(2) - vehicle.mount_pitch_rad * H_v.row(0);
   m.H(0, kMountPitch) = -v_x;
-  m.variance(0) = square(params.vertical_std_mps) +
-                  square(params.vertical_turn_std_m) * motion.omega_ib_b.head<2>().squaredNorm();
+  m.variance(0) =
+      square(params.vertical_std_mps) + square(params.vertical_turn_std_m) * motion.omega_ib_b.head<2>().squaredNorm();
   return m;
 }
 

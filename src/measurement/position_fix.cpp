@@ -10,7 +10,7 @@ PositionFix toPositionFix(const GnssFix& fix) {
           fix.covariance_ned_m2.diagonal()};
 }
 
-Measurement positionMeasurement(const Planet& planet, const PositionFix& fix, const NavState& state,
+Measurement positionMeasurement(const Planet& planet, const PositionFix& fix, const NavigationState& state,
                                 const Vector3& lever_b) {
   const Vector3 lever_n = state.q_b_to_n * lever_b;
   const Vector3 travelled_n = state.v_eb_n * toSeconds(state.stamp - fix.stamp);

@@ -19,9 +19,8 @@ void WheelOdometryParams::visit(ParameterVisitor& v) {
            "how much wider than the geometric track the wheels act in a turn");
 }
 
-Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
-                                    const BodyMotion& motion, const NavState& state, const VehicleState& vehicle,
-                                    const Vector3& lever_b) {
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps, const BodyMotion& motion,
+                                    const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b) {
   Measurement m(1);
   const double slip = vehicle.wheel_scale + vehicle.slow_slip + vehicle.fast_slip;
   m.residual(0) = wheel_speed_mps * (1.0 - slip) - motion.v_eb_b.x();
@@ -38,8 +37,8 @@ Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_y
   Measurement m(1);
   m.residual(0) = wheel_yaw_rate_radps - motion.omega_ib_b.z();
   m.H(0, kGyroBias + 2) = -1.0;
-  m.variance(0) = square(degToRad(params.yaw_rate_std_deg_per_s)) +
-                  square(params.yaw_rate_scale_std * motion.omega_ib_b.z());
+  m.variance(0) =
+      square(degToRad(params.yaw_rate_std_deg_per_s)) + square(params.yaw_rate_scale_std * motion.omega_ib_b.z());
   return m;
 }
 

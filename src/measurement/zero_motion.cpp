@@ -10,7 +10,7 @@ void ZeroMotionParams::visit(ParameterVisitor& v) {
            "1σ of the rate at standstill beside the gyro's own noise [°/h]");
 }
 
-Measurement zeroVelocityMeasurement(const ZeroMotionParams& params, const NavState& state) {
+Measurement zeroVelocityMeasurement(const ZeroMotionParams& params, const NavigationState& state) {
   Measurement m(3);
   m.residual = -state.v_eb_n;
   m.H.block<3, 3>(0, kVelocity).setIdentity();
@@ -19,7 +19,8 @@ Measurement zeroVelocityMeasurement(const ZeroMotionParams& params, const NavSta
 }
 
 Measurement zeroAngularRateMeasurement(const ZeroMotionParams& params, double gyro_noise_density,
-                                       const BodyMotion& motion, const NavState& state, const Vector3& omega_ie_n) {
+                                       const BodyMotion& motion, const NavigationState& state,
+                                       const Vector3& omega_ie_n) {
   const Matrix3 C_n_to_b = state.q_b_to_n.conjugate().toRotationMatrix();
   const double tremor_radps = degToRad(params.rate_std_deg_per_h) / 3600.0;
   Measurement m(3);

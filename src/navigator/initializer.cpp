@@ -26,9 +26,10 @@ ErrorCovariance priorCovariance(const ErrorVector& prior_variance) { return prio
 }  // namespace
 
 void InitializationParams::visit(ParameterVisitor& v) {
-  v.choice("source", source, {"gnss", "given", "truth", "motion"},
-           "gnss: rest, then a straight drive under gps/fix; given: the pose below; motion: the heading below, position "
-           "zero; truth: the first truth pose (evaluation only)");
+  v.choice(
+      "source", source, {"gnss", "given", "truth", "motion"},
+      "gnss: rest, then a straight drive under gps/fix; given: the pose below; motion: the heading below, position "
+      "zero; truth: the first truth pose (evaluation only)");
   v.number("heading_deg", heading_deg, {-360.0, 360.0}, "heading for given and motion, clockwise from north [°]");
   v.number("heading_std_deg", heading_std_deg, {0.0, 180.0}, "1σ of that heading [°]");
   v.number("latitude_deg", latitude_deg, {-89.99, 89.99}, "where the rover starts, for given and motion [°]");
@@ -41,7 +42,8 @@ void InitializationParams::visit(ParameterVisitor& v) {
   v.number("levelling_window_s", levelling_window_s, {0.5, 600.0},
            "length of the window for levelling without a standstill [s]");
   v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0}, "1σ of roll and pitch levelled on the move [°]");
-  v.number("moving_speed_std_mps", moving_speed_std_mps, {1e-3, 10.0}, "1σ of the velocity when starting on the move [m/s]");
+  v.number("moving_speed_std_mps", moving_speed_std_mps, {1e-3, 10.0},
+           "1σ of the velocity when starting on the move [m/s]");
 }
 
 Initializer::Initializer(const Planet& planet, const InitializationParams& params, const ImuInputParams& imu,
@@ -62,7 +64,7 @@ void Initializer::reset() {
   truth_.reset();
 }
 
-void Initializer::setTruth(const NavState& truth, bool has_attitude) {
+void Initializer::setTruth(const NavigationState& truth, bool has_attitude) {
   truth_ = truth;
   truth_has_attitude_ = has_attitude;
 }
@@ -170,16 +172,17 @@ std::optional<InitialState> Initializer::fromWindow() const {
   if (imu_.size() < 2 || (from_truth && !truth_)) {
     return std::nullopt;
   }
-  const std::optional<Nanoseconds> begin =
-      firstImuStampFrom(from_truth ? truth_->stamp : wheels_.empty() ? imu_.front().stamp : wheels_.front().stamp);
+  const std::optional<Nanoseconds> begin = firstImuStampFrom(from_truth        ? truth_->stamp
+                                                             : wheels_.empty() ? imu_.front().stamp
+                                                                               : wheels_.front().stamp);
   if (!begin || toSeconds(imu_.back().stamp - *begin) < params_.levelling_window_s) {
     return std::nullopt;
   }
   const Nanoseconds end = *begin + fromSeconds(params_.levelling_window_s);
   const Nanoseconds slack = fromSeconds(setup_.stationary.hold_off_s + setup_.stationary.window_s + 0.5);
   const bool at_rest = rest_.begin != 0 && rest_.begin <= *begin + slack && rest_.end + slack >= end;
-  InitialState initial = levelled(*begin, at_rest ? std::min(end, rest_.end) : end, at_rest,
-                                  degToRad(params_.heading_deg));
+  InitialState initial =
+      levelled(*begin, at_rest ? std::min(end, rest_.end) : end, at_rest, degToRad(params_.heading_deg));
   initial.nav.position = {degToRad(params_.latitude_deg), degToRad(params_.longitude_deg), params_.height_m};
   if (from_truth) {
     initial.nav.position = truth_->position;
@@ -254,8 +257,8 @@ std::optional<PositionFix> Initializer::startFix(Nanoseconds begin) const {
 
 std::optional<PositionFix> Initializer::endFix(const PositionFix& start) const {
   for (const PositionFix& fix : fixes_) {
-    if (fix.stamp > start.stamp && positionDifference(planet_, fix.position, start.position).head<2>().norm() >=
-                                       params_.drive_distance_m) {
+    if (fix.stamp > start.stamp &&
+        positionDifference(planet_, fix.position, start.position).head<2>().norm() >= params_.drive_distance_m) {
       return fix;
     }
   }

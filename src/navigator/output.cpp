@@ -16,18 +16,14 @@ Matrix3 frdToFlu() { return Vector3(1.0, -1.0, -1.0).asDiagonal(); }
 
 OutputMaker::OutputMaker(const Planet& planet, const Geodetic& origin, const Vector3& lever_imu_to_base_b,
                          double gyro_noise_density)
-    : planet_(planet),
-      frame_(planet, origin),
-      lever_b_(lever_imu_to_base_b),
-      gyro_noise_density_(gyro_noise_density) {}
+    : planet_(planet), frame_(planet, origin), lever_b_(lever_imu_to_base_b), gyro_noise_density_(gyro_noise_density) {}
 
 Output OutputMaker::make(const Estimate& estimate, const ErrorCovariance& P) const {
-  const NavState& nav = estimate.nav;
+  const NavigationState& nav = estimate.nav;
   const Matrix3 C_b_to_n = nav.q_b_to_n.toRotationMatrix();
   const Matrix3 C_n_to_enu = frame_.C_n_to_enu(nav.position);
   const Vector3 lever_n = C_b_to_n * lever_b_;
-  const Vector3 omega_eb_b =
-      estimate.omega_ib_b - C_b_to_n.transpose() * planet_.omega_ie_n(nav.position.latitude_rad);
+  const Vector3 omega_eb_b = estimate.omega_ib_b - C_b_to_n.transpose() * planet_.omega_ie_n(nav.position.latitude_rad);
 
   Output out;
   out.stamp = nav.stamp;

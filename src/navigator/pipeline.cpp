@@ -55,7 +55,7 @@ void Pipeline::push(const PositionFix& fix) {
   }
 }
 
-void Pipeline::setTruth(const NavState& truth, bool has_attitude) {
+void Pipeline::setTruth(const NavigationState& truth, bool has_attitude) {
   if (!initial_) {
     initializer_.setTruth(truth, has_attitude);
     tryToStart();

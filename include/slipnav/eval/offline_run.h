@@ -27,7 +27,7 @@ class OfflineRun {
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
   void push(const PositionFix& fix);
-  void setTruth(const NavState& truth, bool has_attitude);
+  void setTruth(const NavigationState& truth, bool has_attitude);
 
   /// Truth for metrics and plots only.
   void addTruthFix(const GnssFix& fix) { truth_fixes_.push_back(fix); }

@@ -29,6 +29,6 @@ void pushMeasurements(const sim::Measurements& measurements, const WheelGeometry
 }
 
 /// Truth as the state of an IMU at `imu_position_b` from base_link.
-NavState toNavState(const sim::TruthState& truth, const Planet& planet, const Vector3& imu_position_b);
+NavigationState toNavState(const sim::TruthState& truth, const Planet& planet, const Vector3& imu_position_b);
 
 }  // namespace slipnav

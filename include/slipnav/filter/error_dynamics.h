@@ -39,7 +39,7 @@ struct ErrorTransition {
   Vector3 attitude_from_yaw_scale;           ///< column of kYawScale in the attitude rows
   Vector3 velocity_from_yaw_scale;           ///< column of kYawScale in the velocity rows
   Eigen::Matrix<double, kErrorStates - 9, 1> decay;  ///< diagonal of the remaining rows
-  ErrorVector noise;                         ///< diagonal of the continuous noise integrated over the step, Q_c Δt
+  ErrorVector noise;  ///< diagonal of the continuous noise integrated over the step, Q_c Δt
 
   /// The whole 22×22 matrix Φ.
   ErrorCovariance matrix() const;
@@ -52,10 +52,10 @@ class ErrorDynamics {
   /// F of the navigation rows, continuous time: d/dt δx = F δx (Groves 14.63 with errors of the biases counted as
   /// estimate − truth, hence −C in the bias columns).
   /// @param f_ib_b, omega_ib_b bias-free mean specific force and rate of the step
-  Eigen::Matrix<double, 9, kNavStates> systemMatrix(const NavState& middle, const Vector3& f_ib_b) const;
+  Eigen::Matrix<double, 9, kNavStates> systemMatrix(const NavigationState& middle, const Vector3& f_ib_b) const;
 
   /// Φ to second order and the noise of a step of `duration_s`, linearised at its middle.
-  ErrorTransition transition(const NavState& start, const NavState& end, const Vector3& f_ib_b,
+  ErrorTransition transition(const NavigationState& start, const NavigationState& end, const Vector3& f_ib_b,
                              const Vector3& omega_ib_b, double duration_s) const;
 
   /// P ← Φ (P + ½Q_cΔt) Φᵀ + ½Q_cΔt, second order in the step (Groves 14.80).

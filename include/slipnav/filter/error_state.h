@@ -43,13 +43,13 @@ struct VehicleState {
 };
 
 /// Takes an estimated error out of the navigation state: truth = estimate − error.
-void subtractError(const Planet& planet, const ErrorVector& error, NavState& state);
+void subtractError(const Planet& planet, const ErrorVector& error, NavigationState& state);
 void subtractError(const ErrorVector& error, VehicleState& state);
 
 /// Position error [m], north-east-down, of `estimate` against `truth` (small differences).
 Vector3 positionDifference(const Planet& planet, const Geodetic& estimate, const Geodetic& truth);
 
 /// Error of `estimate` against `truth` in the layout above; vehicle states are zero.
-ErrorVector errorBetween(const Planet& planet, const NavState& estimate, const NavState& truth);
+ErrorVector errorBetween(const Planet& planet, const NavigationState& estimate, const NavigationState& truth);
 
 }  // namespace slipnav

@@ -13,7 +13,7 @@ namespace slipnav {
 
 /// Where an estimate starts.
 struct InitialState {
-  NavState nav;
+  NavigationState nav;
   VehicleState vehicle;
   ErrorCovariance P = ErrorCovariance::Identity();
   Geodetic origin;  ///< of the map frame
@@ -49,15 +49,15 @@ const char* componentName(Component component);
 struct ComponentStatus {
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
-  double nis_sum = 0.0;   ///< of the accepted ones, each divided by its degrees of freedom
-  double last_nis = 0.0;  ///< likewise, accepted or not
+  double nis_sum = 0.0;            ///< of the accepted ones, each divided by its degrees of freedom
+  double last_nis = 0.0;           ///< likewise, accepted or not
   Nanoseconds rejected_since = 0;  ///< 0 while the last one was accepted
 };
 
 /// The filter's answer for the end of one step.
 struct Estimate {
   std::uint64_t sequence = 0;
-  NavState nav;
+  NavigationState nav;
   Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean specific force of the step [m/s²]
   Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean rate of the step [rad/s]
   VehicleState vehicle;

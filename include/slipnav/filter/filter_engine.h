@@ -49,7 +49,7 @@ class FilterEngine {
   std::optional<Correction> advance(const EstimateSink& sink);
 
   const ErrorCovariance& covariance() const { return P_; }
-  const NavState& state() const { return state_; }
+  const NavigationState& state() const { return state_; }
   const VehicleState& vehicle() const { return vehicle_; }
   const ErrorTransition& lastTransition() const { return transition_; }
   const ComponentStatus& status(Component component) const { return update_.status(component); }
@@ -78,7 +78,7 @@ class FilterEngine {
   bool use_zaru_;
 
   bool initialised_ = false;
-  NavState state_;
+  NavigationState state_;
   VehicleState vehicle_;
   ErrorCovariance P_ = ErrorCovariance::Identity();
   ErrorTransition transition_;
@@ -89,7 +89,7 @@ class FilterEngine {
   RingQueue<WheelMotion> wheels_;  ///< not yet applied, by stamp
   RingQueue<PositionFix> fixes_;   ///< likewise
   Nanoseconds newest_wheels_ = 0;
-  MotionAverage average_;          ///< over the wheel interval that is open
+  MotionAverage average_;  ///< over the wheel interval that is open
   Estimate estimate_;
 };
 

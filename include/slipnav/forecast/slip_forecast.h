@@ -12,7 +12,7 @@ namespace slipnav {
 /// Step of the predicted times [s].
 inline constexpr double kSlipForecastStep_s = 0.1;
 
-struct SlipForecast {
+struct SlipForecastResult {
   std::string model;
   SlipFit fit;
   SlipPrediction prediction;    ///< every 0.1 s after the last usable sample, up to the horizon
@@ -25,10 +25,10 @@ SlipSamples readSlipCsv(const std::string& path);
 
 /// Fits one model to the samples and predicts. Throws std::invalid_argument with the status when the samples are
 /// refused, or when the horizon is shorter than two steps.
-SlipForecast forecastSlip(const SlipSamples& samples, const SlipModelParameters& parameters, double horizon_s);
+SlipForecastResult forecastSlip(const SlipSamples& samples, const SlipModelParameters& parameters, double horizon_s);
 
 /// One object: model, status, origin_s, hyperparameters, log_marginal_likelihood, samples, left_out, correlation
 /// {bias_stddev, stddev, time_constant_s}, t, mean, stddev. Numbers carry all their digits.
-std::string toJson(const SlipForecast& forecast);
+std::string toJson(const SlipForecastResult& forecast);
 
 }  // namespace slipnav

@@ -27,7 +27,7 @@ struct InsStep {
   std::uint64_t sequence = 0;  ///< counts IMU intervals since the initial state
   std::uint32_t epoch = 0;     ///< counts corrections; a step of an older epoch is void
   Nanoseconds start = 0;
-  NavState state;                        ///< at the end of the interval
+  NavigationState state;                 ///< at the end of the interval
   Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean over the interval [m/s²]
   Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean over the interval [rad/s]
   double gap_s = 0.0;                    ///< time without samples inside the interval
@@ -37,7 +37,7 @@ struct InsStep {
 struct Correction {
   std::uint64_t sequence = 0;
   std::uint32_t epoch = 0;  ///< epoch of all steps that follow from it
-  NavState state;
+  NavigationState state;
 };
 
 enum class ImuVerdict {
@@ -57,7 +57,7 @@ class InsEngine {
   void reset();
 
   /// Starts mechanising from `state`; samples up to its stamp are dropped, later ones that are buffered are used.
-  void initialise(const NavState& state);
+  void initialise(const NavigationState& state);
   bool isInitialised() const { return initialised_; }
 
   /// Checks and buffers a sample.
@@ -79,7 +79,7 @@ class InsEngine {
     Nanoseconds end;
     ImuInterval interval;
     double gap_s;
-    NavState state;  ///< at the end, once mechanised
+    NavigationState state;  ///< at the end, once mechanised
   };
 
   Slot& slot(std::uint64_t sequence) { return ring_[sequence & (ring_.size() - 1)]; }
@@ -89,17 +89,17 @@ class InsEngine {
 
   Strapdown strapdown_;
   ImuInputParams params_;
-  std::vector<Slot> ring_;         ///< power of two in size; holds [first_, end_)
-  std::uint64_t first_ = 0;        ///< oldest buffered sequence
-  std::uint64_t next_ = 0;         ///< next to be mechanised
-  std::uint64_t end_ = 0;          ///< one past the newest buffered
-  std::uint64_t base_ = 0;         ///< ring sequence that counts as step 0
+  std::vector<Slot> ring_;   ///< power of two in size; holds [first_, end_)
+  std::uint64_t first_ = 0;  ///< oldest buffered sequence
+  std::uint64_t next_ = 0;   ///< next to be mechanised
+  std::uint64_t end_ = 0;    ///< one past the newest buffered
+  std::uint64_t base_ = 0;   ///< ring sequence that counts as step 0
   std::uint32_t epoch_ = 0;
   bool initialised_ = false;
-  NavState initial_;
+  NavigationState initial_;
   Nanoseconds newest_stamp_ = 0;
   ImuSample newest_;
-  double period_s_ = 0.0;          ///< running mean of the regular sample interval
+  double period_s_ = 0.0;  ///< running mean of the regular sample interval
 };
 
 }  // namespace slipnav

@@ -7,7 +7,7 @@
 namespace slipnav {
 
 /// Attitude, velocity and position of the IMU, and its two biases, at one instant.
-struct NavState {
+struct NavigationState {
   Nanoseconds stamp = 0;
   Quaternion q_b_to_n = Quaternion::Identity();  ///< body (forward-right-down) to local north-east-down
   Vector3 v_eb_n = Vector3::Zero();              ///< velocity w.r.t. the planet, north-east-down [m/s]
@@ -17,6 +17,6 @@ struct NavState {
 };
 
 /// True when no number of the state is NaN or infinite.
-bool isFinite(const NavState& state);
+bool isFinite(const NavigationState& state);
 
 }  // namespace slipnav

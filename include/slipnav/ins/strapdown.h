@@ -24,8 +24,8 @@ class Strapdown {
   /// taken from the change between the previous and the current interval (both of any length), gravity, Coriolis and
   /// frame rotation are evaluated half-way. `previous` may have zero duration, then rates count as constant.
   /// @param stamp epoch of the returned state
-  NavState propagate(const NavState& state, const ImuInterval& previous, const ImuInterval& current,
-                     Nanoseconds stamp) const;
+  NavigationState propagate(const NavigationState& state, const ImuInterval& previous, const ImuInterval& current,
+                            Nanoseconds stamp) const;
 
   const Planet& planet() const { return planet_; }
 

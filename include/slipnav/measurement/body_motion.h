@@ -15,9 +15,9 @@ struct BodyMotion {
 
 /// ∂(v_eb_b at the reference point)/∂(error state): Cᵀδv + Cᵀ[v×]δψ + [l×]δb_g (Groves 16.58 and following).
 /// @param lever_b from the IMU to the reference point, body axes [m]
-Eigen::Matrix<double, 3, kErrorStates> bodyVelocityJacobian(const NavState& state, const Vector3& lever_b);
+Eigen::Matrix<double, 3, kErrorStates> bodyVelocityJacobian(const NavigationState& state, const Vector3& lever_b);
 
 /// Velocity of the point at `lever_b` from the IMU, body axes [m/s].
-Vector3 bodyVelocity(const NavState& state, const Vector3& omega_eb_b, const Vector3& lever_b);
+Vector3 bodyVelocity(const NavigationState& state, const Vector3& omega_eb_b, const Vector3& lever_b);
 
 }  // namespace slipnav

@@ -18,12 +18,12 @@ struct NonholonomicParams {
 };
 
 /// Lateral speed of the reference point: v_y + ψ_m v_x − tan β v_x = 0.
-Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavState& state,
+Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavigationState& state,
                                const VehicleState& vehicle, const Vector3& lever_b);
 
 /// Vertical speed of the reference point: v_z − θ_m v_x = 0.
-Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavState& state,
-                                const VehicleState& vehicle, const Vector3& lever_b);
+Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion,
+                                const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b);
 
 /// Slip angle β = atan2(v_y, v_x) of the reference point in vehicle axes, forward-right-down [rad].
 double slipAngle(const Vector3& v_eb_b, const VehicleState& vehicle);

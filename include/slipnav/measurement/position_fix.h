@@ -18,7 +18,7 @@ PositionFix toPositionFix(const GnssFix& fix);
 /// Antenna position, north-east-down metres, three rows.
 /// @param state at or up to one IMU interval after the fix; its position is carried back to the stamp of the fix
 /// @param lever_b from the IMU to the antenna [m]
-Measurement positionMeasurement(const Planet& planet, const PositionFix& fix, const NavState& state,
+Measurement positionMeasurement(const Planet& planet, const PositionFix& fix, const NavigationState& state,
                                 const Vector3& lever_b);
 
 }  // namespace slipnav

@@ -19,9 +19,8 @@ struct WheelOdometryParams {
 
 /// Forward speed: u (1 − κ − s_slow − s_fast) = v_x, with u the mean circumferential speed of the wheels.
 /// @param motion means over the odometry interval; @param lever_b IMU to reference point
-Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
-                                    const BodyMotion& motion, const NavState& state, const VehicleState& vehicle,
-                                    const Vector3& lever_b);
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps, const BodyMotion& motion,
+                                    const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b);
 
 /// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z.
 Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps,

@@ -14,11 +14,12 @@ struct ZeroMotionParams {
 };
 
 /// v_eb^n = 0, three rows.
-Measurement zeroVelocityMeasurement(const ZeroMotionParams& params, const NavState& state);
+Measurement zeroVelocityMeasurement(const ZeroMotionParams& params, const NavigationState& state);
 
 /// ω_ib^b = C_n_to_b ω_ie^n, three rows. The noise is that of the gyros averaged over the interval, with
 /// `gyro_noise_density` in rad²/s (angle random walk squared), and what the vehicle's own tremor adds.
 Measurement zeroAngularRateMeasurement(const ZeroMotionParams& params, double gyro_noise_density,
-                                       const BodyMotion& motion, const NavState& state, const Vector3& omega_ie_n);
+                                       const BodyMotion& motion, const NavigationState& state,
+                                       const Vector3& omega_ie_n);
 
 }  // namespace slipnav

@@ -49,7 +49,7 @@ class Initializer {
   void push(const WheelMotion& wheels);
   void push(const PositionFix& fix);
   /// The state for the source `truth`. Without attitude, it is levelled and takes the configured heading.
-  void setTruth(const NavState& truth, bool has_attitude);
+  void setTruth(const NavigationState& truth, bool has_attitude);
 
   /// The initial state once it can be known; ask after every sample.
   std::optional<InitialState> result() const;
@@ -90,7 +90,7 @@ class Initializer {
   std::vector<WheelMotion> wheels_;
   std::vector<PositionFix> fixes_;
   Rest rest_;
-  std::optional<NavState> truth_;
+  std::optional<NavigationState> truth_;
   bool truth_has_attitude_ = false;
 };
 

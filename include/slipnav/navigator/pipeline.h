@@ -34,7 +34,7 @@ class Pipeline {
   /// Satellite position; has no effect once the initialisation has ended.
   void push(const PositionFix& fix);
   /// For the initialisation source `truth`.
-  void setTruth(const NavState& truth, bool has_attitude);
+  void setTruth(const NavigationState& truth, bool has_attitude);
 
   /// Where the estimate started, once it has.
   const std::optional<InitialState>& initial() const { return initial_; }
