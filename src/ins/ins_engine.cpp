@@ -7,29 +7,17 @@ namespace {
 
 constexpr std::size_t kInitialRing = 4096;
 constexpr std::size_t kLargestRing = 1U << 18U;  // four minutes at 1 kHz, while an initial state is waited for
-constexpr Nanoseconds kRestartBackstep = 1'000'000'000;
-constexpr double kPeriodGain = 0.05;
 
 }  // namespace
 
-void ImuInputParams::visit(ParameterVisitor& v) {
-  v.choice("sampling", sampling, {"mean", "instantaneous"},
-           "whether a sample is the mean over the interval that ends at its stamp, or the value at its stamp");
-  v.number("max_specific_force_mps2", max_specific_force_mps2, {1.0, 1e5}, "a larger magnitude is refused [m/s²]");
-  v.number("max_rate_deg_per_s", max_rate_deg_per_s, {1.0, 1e6}, "a larger angular rate is refused [°/s]");
-  v.number("gap_factor", gap_factor, {1.5, 100.0}, "an interval longer than this many usual ones counts as a gap");
-  v.number("max_bridged_gap_s", max_bridged_gap_s, {0.0, 60.0}, "a longer gap is reported as a fault [s]");
-}
-
 InsEngine::InsEngine(const Planet& planet, const ImuInputParams& params)
-    : strapdown_(planet), params_(params), ring_(kInitialRing) {}
+    : strapdown_(planet), screen_(params), instantaneous_(params.sampling == "instantaneous"), ring_(kInitialRing) {}
 
 void InsEngine::reset() {
   first_ = next_ = end_ = base_ = 0;
   epoch_ = 0;
   initialised_ = false;
-  newest_stamp_ = 0;
-  period_s_ = 0.0;
+  screen_.reset();
 }
 
 void InsEngine::initialise(const NavigationState& state) {
@@ -68,36 +56,21 @@ void InsEngine::makeRoom() {
 }
 
 ImuVerdict InsEngine::push(const ImuSample& sample) {
-  if (!sample.f_ib_b.allFinite() || !sample.omega_ib_b.allFinite()) {
-    return ImuVerdict::kNotFinite;
-  }
-  if (sample.f_ib_b.norm() > params_.max_specific_force_mps2 ||
-      sample.omega_ib_b.norm() > degToRad(params_.max_rate_deg_per_s)) {
-    return ImuVerdict::kOutOfRange;
-  }
-  const Nanoseconds since = sample.stamp - newest_stamp_;
-  if (newest_stamp_ != 0 && since <= 0) {
-    return since <= -kRestartBackstep ? ImuVerdict::kTimeWentBack : ImuVerdict::kNotNewer;
-  }
   const ImuSample before = newest_;
-  const bool is_first = newest_stamp_ == 0;
+  const ImuScreen::Result result = screen_.check(sample);
+  if (!isAccepted(result.verdict)) {
+    return result.verdict;
+  }
   newest_ = sample;
-  newest_stamp_ = sample.stamp;
-  if (is_first) {
-    return ImuVerdict::kAccepted;
+  if (result.duration_s > 0.0) {
+    Slot added{sample.stamp, {sample.f_ib_b, sample.omega_ib_b, result.duration_s}, result.gap_s, {}};
+    if (result.verdict == ImuVerdict::kAfterGap || instantaneous_) {
+      added.interval.f_ib_b = 0.5 * (before.f_ib_b + sample.f_ib_b);
+      added.interval.omega_ib_b = 0.5 * (before.omega_ib_b + sample.omega_ib_b);
+    }
+    append(added);
   }
-  const double duration_s = toSeconds(since);
-  const bool gap = period_s_ > 0.0 && duration_s > params_.gap_factor * period_s_;
-  if (!gap) {
-    period_s_ += (period_s_ > 0.0 ? kPeriodGain : 1.0) * (duration_s - period_s_);
-  }
-  Slot added{sample.stamp, {sample.f_ib_b, sample.omega_ib_b, duration_s}, gap ? duration_s - period_s_ : 0.0, {}};
-  if (gap || params_.sampling == "instantaneous") {
-    added.interval.f_ib_b = 0.5 * (before.f_ib_b + sample.f_ib_b);
-    added.interval.omega_ib_b = 0.5 * (before.omega_ib_b + sample.omega_ib_b);
-  }
-  append(added);
-  return gap ? ImuVerdict::kAfterGap : ImuVerdict::kAccepted;
+  return result.verdict;
 }
 
 std::optional<InsStep> InsEngine::step() {

@@ -25,7 +25,7 @@ void Pipeline::push(const ImuSample& sample) {
     restart();
     verdict = navigator_.push(sample, sink_);
   }
-  if (verdict != ImuVerdict::kAccepted && verdict != ImuVerdict::kAfterGap) {
+  if (!isAccepted(verdict)) {
     ++counts_.rejected;
     return;
   }

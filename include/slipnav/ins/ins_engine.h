@@ -4,23 +4,13 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "slipnav/config/parameter_visitor.h"
+#include "slipnav/ins/imu_screen.h"
 #include "slipnav/ins/strapdown.h"
 #include "slipnav/sensors.h"
 
 namespace slipnav {
-
-struct ImuInputParams {
-  std::string sampling = "mean";
-  double max_specific_force_mps2 = 200.0;
-  double max_rate_deg_per_s = 2000.0;
-  double gap_factor = 2.5;
-  double max_bridged_gap_s = 1.0;
-  void visit(ParameterVisitor& v);
-};
 
 /// One mechanised IMU interval.
 struct InsStep {
@@ -38,15 +28,6 @@ struct Correction {
   std::uint64_t sequence = 0;
   std::uint32_t epoch = 0;  ///< epoch of all steps that follow from it
   NavigationState state;
-};
-
-enum class ImuVerdict {
-  kAccepted,
-  kAfterGap,      ///< accepted; samples are missing before it
-  kNotFinite,     ///< refused: NaN or infinite
-  kOutOfRange,    ///< refused: beyond what the sensor can measure
-  kNotNewer,      ///< refused: repeated stamp, or older than the newest by less than a second
-  kTimeWentBack,  ///< refused: older by a second or more; the source has started anew
 };
 
 class InsEngine {
@@ -71,7 +52,7 @@ class InsEngine {
   bool correct(const Correction& correction);
 
   /// Stamp of the newest accepted sample, 0 before the first.
-  Nanoseconds newestStamp() const { return newest_stamp_; }
+  Nanoseconds newestStamp() const { return screen_.newestStamp(); }
   const Planet& planet() const { return strapdown_.planet(); }
 
  private:
@@ -88,7 +69,8 @@ class InsEngine {
   void dropUpTo(Nanoseconds stamp);
 
   Strapdown strapdown_;
-  ImuInputParams params_;
+  ImuScreen screen_;
+  bool instantaneous_;
   std::vector<Slot> ring_;   ///< power of two in size; holds [first_, end_)
   std::uint64_t first_ = 0;  ///< oldest buffered sequence
   std::uint64_t next_ = 0;   ///< next to be mechanised
@@ -97,9 +79,7 @@ class InsEngine {
   std::uint32_t epoch_ = 0;
   bool initialised_ = false;
   NavigationState initial_;
-  Nanoseconds newest_stamp_ = 0;
-  ImuSample newest_;
-  double period_s_ = 0.0;  ///< running mean of the regular sample interval
+  ImuSample newest_;  ///< accepted
 };
 
 }  // namespace slipnav

@@ -1,0 +1,64 @@
+#pragma once
+/// Tells usable IMU samples from those that are not. The same samples in the same order give the same verdicts, so that
+/// everybody who listens to one IMU agrees on what has happened.
+
+#include <string>
+
+#include "slipnav/config/parameter_visitor.h"
+#include "slipnav/sensors.h"
+
+namespace slipnav {
+
+struct ImuInputParams {
+  std::string sampling = "mean";
+  double max_specific_force_mps2 = 200.0;
+  double max_rate_deg_per_s = 2000.0;
+  double gap_factor = 2.5;
+  double max_bridged_gap_s = 1.0;
+  void visit(ParameterVisitor& v);
+};
+
+enum class ImuVerdict {
+  kAccepted,
+  kAfterGap,      ///< accepted; samples are missing before it
+  kNotFinite,     ///< refused: NaN or infinite
+  kOutOfRange,    ///< refused: beyond what the sensor can measure
+  kNotNewer,      ///< refused: repeated stamp, or older than the newest by less than a second
+  kTimeWentBack,  ///< refused: older by a second or more; the source has started anew
+};
+
+/// Stamps of one source that go back by this much mean that it has started anew.
+inline constexpr Nanoseconds kRestartBackstep = 1'000'000'000;
+
+constexpr bool isAccepted(ImuVerdict verdict) {
+  return verdict == ImuVerdict::kAccepted || verdict == ImuVerdict::kAfterGap;
+}
+
+/// The verdict in words, "" for an accepted sample.
+const char* complaintOf(ImuVerdict verdict);
+
+class ImuScreen {
+ public:
+  struct Result {
+    ImuVerdict verdict = ImuVerdict::kAccepted;
+    double duration_s = 0.0;  ///< since the accepted sample before; 0 for the first
+    double gap_s = 0.0;       ///< time without samples in it
+  };
+
+  explicit ImuScreen(const ImuInputParams& params) : params_(params) {}
+
+  /// Forgets all samples.
+  void reset();
+
+  Result check(const ImuSample& sample);
+
+  /// Stamp of the newest accepted sample, 0 before the first.
+  Nanoseconds newestStamp() const { return newest_stamp_; }
+
+ private:
+  ImuInputParams params_;
+  Nanoseconds newest_stamp_ = 0;
+  double period_s_ = 0.0;  ///< running mean of the regular sample interval
+};
+
+}  // namespace slipnav
