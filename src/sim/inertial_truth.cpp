@@ -28,12 +28,17 @@ void InertialTruth::add(const Kinematics& state, double dt_s) {
   rate_sum_b_ += dt_s * (0.5 * (last_.omega_eb_b + state.omega_eb_b) + C_mean.transpose() * omega_ie_enu_);
   rotation_sum_ += dt_s * C_mean;
   time_s_ += dt_s;
+  angular_acceleration_b_ = (state.omega_eb_b - last_.omega_eb_b) / dt_s;
+  last_dt_s_ = dt_s;
   last_ = state;
 }
 
 InertialMean InertialTruth::finish() {
   const Vector3 gravity_enu = gravityAt(last_);
   const Vector3 gravity_b = rotation_sum_.transpose() * (0.5 * (last_gravity_enu_ + gravity_enu));
+  // what the trapezoid rule leaves out (Euler and Maclaurin): tiny, but it does not commute and would add up in attitude
+  rate_sum_b_ += last_dt_s_ * last_dt_s_ / 12.0 * (start_angular_acceleration_b_ - angular_acceleration_b_);
+  start_angular_acceleration_b_ = angular_acceleration_b_;
   const InertialMean mean{(acceleration_sum_b_ - gravity_b) / time_s_, rate_sum_b_ / time_s_};
   last_gravity_enu_ = gravity_enu;
   acceleration_sum_b_.setZero();

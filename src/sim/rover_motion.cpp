@@ -52,19 +52,18 @@ void RoverMotion::advance(double forward_mps, double yaw_rate_radps, double dt_s
   }
   evaluate();
   state_.standstill = at_rest;
-  if (at_rest) {
-    previous_rate_.setZero();
-  }
 }
 
-/// Adams-Bashforth of second order, for steps of changing length.
+/// Adams-Bashforth of third order by divided differences, for steps of changing length.
 void RoverMotion::integrate(double dt_s) {
-  if (!state_.standstill) {
-    const double ratio = previous_dt_s_ > 0.0 ? 0.5 * dt_s / previous_dt_s_ : 0.0;
-    value_ += dt_s * ((1.0 + ratio) * rate_ - ratio * previous_rate_);
-    previous_rate_ = rate_;
+  if (state_.standstill) {
+    history_ = {Integrals::Zero(), Integrals::Zero(), dt_s, dt_s};
+    return;
   }
-  previous_dt_s_ = dt_s;
+  const Integrals slope = (rate_ - history_.rate) / history_.dt_s;
+  const Integrals curvature = (slope - history_.slope) / (history_.dt_s + history_.earlier_dt_s);
+  value_ += dt_s * (rate_ + 0.5 * dt_s * slope + dt_s * (dt_s / 3.0 + 0.5 * history_.dt_s) * curvature);
+  history_ = {rate_, slope, dt_s, history_.dt_s};
 }
 
 void RoverMotion::evaluate() {

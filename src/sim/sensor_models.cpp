@@ -56,11 +56,11 @@ Vector3 ImuModel::corrupt(Triad& triad, const Vector3& value, double dt_s, doubl
   triad.in_run_bias = persistence * triad.in_run_bias +
                       triad.in_run_sigma * std::sqrt(1.0 - persistence * persistence) * normal3(stream_);
   triad.bias = triad.turn_on_bias + triad.in_run_bias;
-  // vibration moves the rover to and fro, so its integral stays small: differences of white noise
-  const Vector3 shake =
-      triad.vibration * std::sqrt(0.5) * (speed_mps / kVibrationSpeed_mps) * normal3(vibration_stream_);
-  const Vector3 vibration = shake - triad.last_shake;
-  triad.last_shake = shake;
+  // vibration moves the rover to and fro, so its integral stays small: what it adds are differences of white noise
+  const double integral_sigma = triad.vibration * std::sqrt(0.5) / params_.rate_hz;
+  const Vector3 shake = integral_sigma * (speed_mps / kVibrationSpeed_mps) * normal3(vibration_stream_);
+  const Vector3 vibration = (shake - triad.shake) / dt_s;
+  triad.shake = shake;
   const Vector3 noise = triad.noise_density / std::sqrt(dt_s) * normal3(stream_);
   return value + triad.scale.cwiseProduct(value) + triad.bias + vibration + noise;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "slipnav/earth/local_frame.h"
+#include "slipnav/math/rotation.h"
 #include "slipnav/sim/driver.h"
 #include "slipnav/sim/ground.h"
 #include "slipnav/sim/inertial_truth.h"
@@ -116,8 +117,9 @@ void RoverSimulator::Parts::updateTruth(Nanoseconds stamp) {
   truth.position = frame.toGeodetic(state.position_enu_m);
   const Matrix3 C_enu_to_n = frame.C_n_to_enu(truth.position).transpose();
   const Matrix3 C_b_to_n = C_enu_to_n * state.C_b_to_enu;
-  truth.q_b_to_n = Quaternion(C_b_to_n).normalized();
-  truth.v_eb_n = C_enu_to_n * state.v_eb_enu;
+  // the IMU senses vibration as the motion that it is, so it belongs to the truth
+  truth.q_b_to_n = (Quaternion(C_b_to_n) * quaternionFromRotationVector(imu.shakenAngle())).normalized();
+  truth.v_eb_n = C_enu_to_n * state.v_eb_enu + C_b_to_n * imu.shakenVelocity();
   truth.v_eb_b = state.v_eb_b;
   truth.omega_ib_b = state.omega_eb_b + state.C_b_to_enu.transpose() * inertial.omega_ie_enu();
   truth.accel_bias_mps2 = imu.accelBias();

@@ -128,8 +128,8 @@ SimulatorParams errorFree(const std::string& terrain, double distance_m) {
 TEST(SimInertialTruth, IntegratesToTheTrueMotionOverFifteenMinutesOfRocking) {
   const Mismatch mismatch = largestMismatch(errorFree("rocking", 680.0), "earth");
   EXPECT_GT(mismatch.duration_s, 895.0);
-  EXPECT_LT(mismatch.position_m, 0.3);
-  EXPECT_LT(mismatch.attitude_rad, 1e-6);
+  EXPECT_LT(mismatch.position_m, 0.1);
+  EXPECT_LT(mismatch.attitude_rad, 2e-7);
 }
 
 TEST(SimInertialTruth, IntegratesToTheTrueMotionOnRoughGround) {

@@ -43,6 +43,13 @@ class RoverMotion {
   /// What is integrated over time.
   enum Index { kEast, kNorth, kHeading, kTravel, kDistance, kWheelAngle, kIntegralCount = kWheelAngle + kWheelCount };
   using Integrals = Eigen::Matrix<double, kIntegralCount, 1>;
+  /// What the multi-step integration remembers.
+  struct History {
+    Integrals rate = Integrals::Zero();   ///< one step ago
+    Integrals slope = Integrals::Zero();  ///< divided difference of the rates one and two steps ago
+    double dt_s = 0.0;                    ///< length of the last step
+    double earlier_dt_s = 0.0;            ///< and of the one before
+  };
 
   void integrate(double dt_s);
   void evaluate();
@@ -58,8 +65,7 @@ class RoverMotion {
   SpeedRamp difference_;  ///< half the left wheels' speed minus the right ones'
   Integrals value_ = Integrals::Zero();
   Integrals rate_ = Integrals::Zero();
-  Integrals previous_rate_ = Integrals::Zero();
-  double previous_dt_s_ = 0.0;
+  History history_;
   Kinematics state_;
 };
 

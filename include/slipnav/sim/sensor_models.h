@@ -35,6 +35,9 @@ class ImuModel {
 
   const Vector3& accelBias() const { return accel_.bias; }  ///< [m/s²]
   const Vector3& gyroBias() const { return gyro_.bias; }    ///< [rad/s]
+  /// What vibration adds to the velocity [m/s] and attitude [rad] of the rover at the last stamp, body axes.
+  const Vector3& shakenVelocity() const { return accel_.shake; }
+  const Vector3& shakenAngle() const { return gyro_.shake; }
 
  private:
   /// The errors of three axes of one kind, SI.
@@ -46,7 +49,7 @@ class ImuModel {
     Vector3 turn_on_bias = Vector3::Zero();
     Vector3 in_run_bias = Vector3::Zero();
     Vector3 bias = Vector3::Zero();  ///< sum of both
-    Vector3 last_shake = Vector3::Zero();
+    Vector3 shake = Vector3::Zero();  ///< integral of the vibration
   };
   Vector3 normal3(RandomStream& stream) const;
   void turnOn(Triad& triad, double turn_on_sigma, double scale_sigma);
