@@ -1,4 +1,4 @@
-# Install rules. Executables install themselves in SlipnavRosTargets.
+# Install rules. Executables install themselves in SlipnavTools.
 
 set(installed_libraries slipnav_core)
 foreach(library slipnav_ros slipnav_nodelets)

@@ -1,15 +1,4 @@
-# The ROS side: conversions, nodelets and executables.
-
-# An executable of the package, started by `rosrun slipnav <name>`. Target names are shared by a whole workspace, so
-# they carry the package's name; the file does not.
-function(slipnav_add_tool source)
-  get_filename_component(name "${source}" NAME_WE)
-  add_executable(slipnav_${name} "${source}")
-  set_target_properties(slipnav_${name} PROPERTIES OUTPUT_NAME ${name} INSTALL_RPATH "$ORIGIN/..")
-  slipnav_configure_target(slipnav_${name})
-  target_link_libraries(slipnav_${name} PRIVATE slipnav_ros)
-  install(TARGETS slipnav_${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-endfunction()
+# The ROS side: conversions and nodelets.
 
 if(ros_sources)
   add_library(slipnav_ros SHARED ${ros_sources})
@@ -30,9 +19,4 @@ if(ros_sources)
     target_link_libraries(slipnav_nodelets PRIVATE slipnav_ros)
     set_target_properties(slipnav_nodelets PROPERTIES INSTALL_RPATH "$ORIGIN")
   endif()
-
-  file(GLOB tool_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/tools/*.cpp")
-  foreach(source IN LISTS tool_sources)
-    slipnav_add_tool("${source}")
-  endforeach()
 endif()

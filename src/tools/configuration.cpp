@@ -1,0 +1,30 @@
+/// Prints every parameter: the defaults, or what a set of configuration files and overrides amounts to.
+
+#include <iostream>
+
+#include "slipnav/config/command_line.h"
+#include "slipnav/config/config_options.h"
+#include "slipnav/config/markdown_writer.h"
+#include "slipnav/config/yaml_writer.h"
+
+namespace {
+
+int run(int argc, char** argv) {
+  slipnav::CommandLine command("configuration", "Prints the whole configuration, every parameter with its meaning.");
+  command.choice("format", {"yaml", "markdown"}, "how to print it", "yaml");
+  slipnav::declareConfigOptions(command);
+  const slipnav::Arguments arguments = command.parse(argc, argv);
+  if (arguments.helpRequested()) {
+    std::cout << command.help();
+    return 0;
+  }
+  const slipnav::Config config = slipnav::configFromOptions(arguments);
+  std::cout << (arguments.text("format") == "yaml" ? slipnav::toYaml(config) : slipnav::toMarkdown(config));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return slipnav::runGuarded("configuration", std::cerr, [&] { return run(argc, argv); });
+}
