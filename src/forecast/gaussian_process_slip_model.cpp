@@ -43,7 +43,11 @@ std::unique_ptr<GaussianProcess> makeGaussianProcess(const std::string& model, c
 }
 
 GaussianProcessSlipModel::GaussianProcessSlipModel(const SlipModelParameters& parameters)
-    : GaussianProcessSlipModel(parameters, makeGaussianProcess(parameters.model, parameters.inference)) {}
+    : GaussianProcessSlipModel(parameters, makeGaussianProcess(parameters.model, parameters.inference)) {
+  if (parameters.inference == "dense") {
+    scout_ = makeGaussianProcess(parameters.model, "state_space");
+  }
+}
 
 GaussianProcessSlipModel::GaussianProcessSlipModel(const SlipModelParameters& parameters,
                                                    std::unique_ptr<GaussianProcess> process)
@@ -81,7 +85,7 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::chooseHyperparameters
   if (isConstant(window, parameters_.slip_floor)) {
     return {SlipFitStatus::kConstantSlip, startPoint(latent_, priors, 1.0), 0};
   }
-  Choice choice = search(priors);
+  Choice choice = search(window, priors);
   if (choice.status != SlipFitStatus::kDefaults) {
     last_good_ = choice.log_parameters;
   } else if (last_good_) {
@@ -91,13 +95,30 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::chooseHyperparameters
   return choice;
 }
 
-// The best of the local fits; status kDefaults when none of them ended well.
-GaussianProcessSlipModel::Choice GaussianProcessSlipModel::search(const std::vector<LogPrior>& priors) {
+GaussianProcessSlipModel::Choice GaussianProcessSlipModel::search(const SlipWindow& window,
+                                                                  const std::vector<LogPrior>& priors) {
+  GaussianProcess& searched = scout_ ? *scout_ : *process_;
+  searched.setSamples(window.times, window.slips);
+  int evaluations = 0;
+  Choice choice = fitFrom(searched, priors, startPoints(searched, priors, evaluations));
+  evaluations += choice.evaluations;
+  if (scout_) {
+    choice = fitFrom(*process_, priors, {choice.log_parameters});
+    evaluations += choice.evaluations;
+  }
+  choice.evaluations = evaluations;
+  return choice;
+}
+
+// The best of the local fits; status kDefaults and the prior's means when none of them ended well.
+GaussianProcessSlipModel::Choice GaussianProcessSlipModel::fitFrom(GaussianProcess& process,
+                                                                   const std::vector<LogPrior>& priors,
+                                                                   const std::vector<Eigen::VectorXd>& starts) const {
   Choice choice{SlipFitStatus::kDefaults, startPoint(latent_, priors, 1.0), 0};
   double best = std::numeric_limits<double>::infinity();
   const FitSettings settings{parameters_.max_evaluations, parameters_.tolerance};
-  for (const Eigen::VectorXd& start : startPoints(priors, choice.evaluations)) {
-    const HyperparameterFit fit = fitHyperparameters(*process_, priors, start, settings);
+  for (const Eigen::VectorXd& start : starts) {
+    const HyperparameterFit fit = fitHyperparameters(process, priors, start, settings);
     choice.evaluations += fit.evaluations;
     if (fit.outcome != FitOutcome::kFailed && fit.objective < best) {
       best = fit.objective;
@@ -109,8 +130,9 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::search(const std::vec
 }
 
 // All cold starts, or after a good fit only its hyperparameters, as long as none of the cold starts is better.
-std::vector<Eigen::VectorXd> GaussianProcessSlipModel::startPoints(const std::vector<LogPrior>& priors,
-                                                                   int& evaluations) {
+std::vector<Eigen::VectorXd> GaussianProcessSlipModel::startPoints(GaussianProcess& process,
+                                                                   const std::vector<LogPrior>& priors,
+                                                                   int& evaluations) const {
   std::vector<Eigen::VectorXd> cold;
   for (const double factor : kColdStarts) {
     cold.push_back(startPoint(latent_, priors, factor));
@@ -120,11 +142,11 @@ std::vector<Eigen::VectorXd> GaussianProcessSlipModel::startPoints(const std::ve
   }
   const Eigen::VectorXd warm = clampToBounds(*last_good_, priors);
   try {
-    const double warm_value = negativeLogPosterior(*process_, priors, warm, nullptr);
+    const double warm_value = negativeLogPosterior(process, priors, warm, nullptr);
     ++evaluations;
     for (const Eigen::VectorXd& start : cold) {
       ++evaluations;
-      if (negativeLogPosterior(*process_, priors, start, nullptr) < warm_value) {
+      if (negativeLogPosterior(process, priors, start, nullptr) < warm_value) {
         return cold;
       }
     }

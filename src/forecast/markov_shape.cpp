@@ -7,7 +7,8 @@
 namespace slipnav {
 namespace {
 
-// Order of the expansion of the RBF's spectral density; even, so that all poles come in conjugate pairs.
+// Order of the expansion of the RBF's spectral density; even, so that all poles come in conjugate pairs. No shape has
+// more states.
 constexpr int kRbfOrder = 6;
 
 // P with F P + P Fᵀ + L Lᵀ = 0, scaled to hᵀ P h = 1.
@@ -88,6 +89,7 @@ MarkovShape::MarkovShape(Correlation correlation) : correlation_(correlation) {
       buildMatern(MaternOrder::kSevenHalves);
       break;
   }
+  stationary_gain_ = stationary_covariance_ * output_;
 }
 
 void MarkovShape::buildConstant() {
@@ -151,9 +153,10 @@ void MarkovShape::transition(double tau, Eigen::Ref<Eigen::MatrixXd> phi) const 
 }
 
 double MarkovShape::correlation(double tau) const {
-  Eigen::MatrixXd phi(dimension(), dimension());
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kRbfOrder, kRbfOrder> phi(dimension(),
+                                                                                                   dimension());
   transition(tau, phi);
-  return output_.dot(phi * stationary_covariance_ * output_);
+  return output_.dot(phi.lazyProduct(stationary_gain_));
 }
 
 void MarkovShape::maternTransition(double tau, Eigen::Ref<Eigen::MatrixXd> phi) const {

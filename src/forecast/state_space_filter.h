@@ -101,10 +101,9 @@ FixedStateSpaceFilter<D>::FixedStateSpaceFilter(std::vector<MarkovComponent> com
   for (const MarkovComponent& component : components_) {
     const Eigen::Index i = component.first_state;
     const Eigen::Index n = component.shape.dimension();
-    const Eigen::VectorXd gain = component.shape.stationaryCovariance() * component.shape.output();
     Block block;
     block.drift.block(i, i, n, n) = component.shape.drift();
-    block.unit_gain.segment(i, n) = gain;
+    block.unit_gain.segment(i, n) = component.shape.stationaryGain();
     blocks_.push_back(block);
     output_.segment(i, n) = component.shape.output();
   }

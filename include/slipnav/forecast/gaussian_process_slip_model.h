@@ -35,7 +35,8 @@ class GaussianProcessSlipModel : public SlipModel {
   GaussianProcessSlipModel(const SlipModelParameters& parameters, std::unique_ptr<GaussianProcess> process);
 
   /// A cold fit starts from several length scales and takes the best end. A later one starts from the previous
-  /// hyperparameters, unless the posterior of the new window is higher at one of the cold starts.
+  /// hyperparameters, unless the posterior of the new window is higher at one of the cold starts. For the dense
+  /// regression this search goes over its state-space form, which costs a tenth; the dense one fits from its end.
   SlipFit fit(const SlipSamples& samples) override;
   bool isReady() const override { return current_.has_value(); }
   SlipPrediction predict(const Eigen::VectorXd& times_s) const override;
@@ -57,8 +58,11 @@ class GaussianProcessSlipModel : public SlipModel {
   };
 
   Choice chooseHyperparameters(const SlipWindow& window, const std::vector<LogPrior>& priors);
-  Choice search(const std::vector<LogPrior>& priors);
-  std::vector<Eigen::VectorXd> startPoints(const std::vector<LogPrior>& priors, int& evaluations);
+  Choice search(const SlipWindow& window, const std::vector<LogPrior>& priors);
+  std::vector<Eigen::VectorXd> startPoints(GaussianProcess& process, const std::vector<LogPrior>& priors,
+                                           int& evaluations) const;
+  Choice fitFrom(GaussianProcess& process, const std::vector<LogPrior>& priors,
+                 const std::vector<Eigen::VectorXd>& starts) const;
   bool adopt(const SlipWindow& window, const Eigen::VectorXd& log_parameters);
   SlipFit report(const SlipWindow& window, SlipFitStatus status, int evaluations) const;
   Eigen::VectorXd sinceOrigin(const Eigen::VectorXd& times_s) const;
@@ -66,6 +70,7 @@ class GaussianProcessSlipModel : public SlipModel {
   SlipModelParameters parameters_;
   LatentModel latent_;
   std::unique_ptr<GaussianProcess> process_;
+  std::unique_ptr<GaussianProcess> scout_;  ///< cheaper form for the search, where there is one
   std::optional<Conditioned> current_;
   std::optional<Eigen::VectorXd> last_good_;  ///< hyperparameters of the last fit that ended well
 };

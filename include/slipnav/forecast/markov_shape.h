@@ -25,6 +25,8 @@ class MarkovShape {
   const Eigen::MatrixXd& drift() const { return drift_; }
   /// P∞, with hᵀ P∞ h = 1.
   const Eigen::MatrixXd& stationaryCovariance() const { return stationary_covariance_; }
+  /// P∞ h.
+  const Eigen::VectorXd& stationaryGain() const { return stationary_gain_; }
   /// h.
   const Eigen::VectorXd& output() const { return output_; }
 
@@ -44,6 +46,7 @@ class MarkovShape {
   Correlation correlation_;
   Eigen::MatrixXd drift_;
   Eigen::MatrixXd stationary_covariance_;
+  Eigen::VectorXd stationary_gain_;
   Eigen::VectorXd output_;
   double rate_ = 0.0;                              ///< Matérn: the only pole is −rate
   std::vector<Eigen::MatrixXd> nilpotent_powers_;  ///< Matérn: ((F + rate·I)^k)/k!
