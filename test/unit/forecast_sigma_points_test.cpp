@@ -58,6 +58,20 @@ TEST(SigmaPoints, AgreesWithSamplingWhereItIsNot) {
   }
 }
 
+TEST(SigmaPoints, WeightedMeanAndVarianceOfThreePoints) {
+  const double mean_slip = 0.3;
+  const double reach = std::sqrt(3.0) * 0.1;
+  const double center = wheelSpeedFromSlip(kSpeed, mean_slip);
+  const double above = wheelSpeedFromSlip(kSpeed, mean_slip + reach);
+  const double below = wheelSpeedFromSlip(kSpeed, mean_slip - reach);
+  const double mean = 2.0 / 3.0 * center + (above + below) / 6.0;
+  const double variance = 2.0 / 3.0 * (center - mean) * (center - mean) +
+                          ((above - mean) * (above - mean) + (below - mean) * (below - mean)) / 6.0;
+  const WheelSpeedPrediction prediction = SigmaPoints({}).predict(kSpeed, mean_slip, 0.1);
+  EXPECT_NEAR(prediction.mean_mps, mean, 1e-14);
+  EXPECT_NEAR(prediction.variance, variance, 1e-14);
+}
+
 TEST(SigmaPoints, NoSpreadIsTheMapItself) {
   for (const double slip : {-0.4, 0.0, 0.3}) {
     const WheelSpeedPrediction prediction = SigmaPoints({}).predict(kSpeed, slip, 0.0);
