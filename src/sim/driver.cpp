@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "slipnav/math/rotation.h"
-
 namespace slipnav::sim {
 namespace {
 
@@ -18,9 +16,7 @@ constexpr double kSpareRoute_m = 20.0;
 }  // namespace
 
 Driver::Driver(const SimulatorParams& params)
-    : params_(params.drive),
-      route_(routeOf(params)),
-      start_stamp_(fromSeconds(params.start_time_s)) {}
+    : params_(params.drive), route_(routeOf(params)), start_stamp_(fromSeconds(params.start_time_s)) {}
 
 Route Driver::routeOf(const SimulatorParams& params) {
   const DriveParams& drive = params.drive;
@@ -59,8 +55,7 @@ void Driver::advancePhase(const TruthState& truth) {
 }
 
 double Driver::steer(const TruthState& truth) {
-  const double heading_rad = eulerFrom_q_b_to_n(truth.q_b_to_n).z();
-  const RoutePoint pose{truth.position_enu_m.x(), truth.position_enu_m.y(), heading_rad};
+  const RoutePoint pose{truth.position_enu_m.x(), truth.position_enu_m.y(), truth.heading_rad};
   const double curvature_per_m = route_.pursue(pose, kLookahead_m);
   return std::clamp(params_.speed_mps * curvature_per_m, -kMaxYawRate_radps, kMaxYawRate_radps);
 }

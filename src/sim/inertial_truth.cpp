@@ -36,7 +36,8 @@ void InertialTruth::add(const Kinematics& state, double dt_s) {
 InertialMean InertialTruth::finish() {
   const Vector3 gravity_enu = gravityAt(last_);
   const Vector3 gravity_b = rotation_sum_.transpose() * (0.5 * (last_gravity_enu_ + gravity_enu));
-  // what the trapezoid rule leaves out (Euler and Maclaurin): tiny, but it does not commute and would add up in attitude
+  // what the trapezoid rule leaves out (Euler and Maclaurin): tiny, but it does not commute and would add up in
+  // attitude
   rate_sum_b_ += last_dt_s_ * last_dt_s_ / 12.0 * (start_angular_acceleration_b_ - angular_acceleration_b_);
   start_angular_acceleration_b_ = angular_acceleration_b_;
   const InertialMean mean{(acceleration_sum_b_ - gravity_b) / time_s_, rate_sum_b_ / time_s_};

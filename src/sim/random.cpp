@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "slipnav/types.h"
-
 namespace slipnav::sim {
 namespace {
 
@@ -41,6 +39,14 @@ double RandomStream::normal() {
   spare_ = radius * std::sin(angle);
   has_spare_ = true;
   return radius * std::cos(angle);
+}
+
+Vector3 RandomStream::normal3() {
+  Vector3 values;
+  for (double& value : values) {
+    value = normal();
+  }
+  return values;
 }
 
 }  // namespace slipnav::sim

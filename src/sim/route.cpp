@@ -61,8 +61,8 @@ void Route::append(double curvature_per_m) {
   const RoutePoint& last = points_.back();
   const double heading_rad = last.heading_rad + curvature_per_m * kSpacing_m;
   const double mean_rad = 0.5 * (last.heading_rad + heading_rad);
-  points_.push_back({last.east_m + kSpacing_m * std::sin(mean_rad), last.north_m + kSpacing_m * std::cos(mean_rad),
-                     heading_rad});
+  points_.push_back(
+      {last.east_m + kSpacing_m * std::sin(mean_rad), last.north_m + kSpacing_m * std::cos(mean_rad), heading_rad});
 }
 
 double Route::pursue(const RoutePoint& pose, double lookahead_m) {

@@ -25,8 +25,7 @@ double slipRatio(double ground_speed_mps, double surface_speed_mps) {
     return 0.0;
   }
   const bool driving = std::abs(ground_speed_mps) <= std::abs(surface_speed_mps);
-  const double slip =
-      driving ? 1.0 - ground_speed_mps / surface_speed_mps : surface_speed_mps / ground_speed_mps - 1.0;
+  const double slip = driving ? 1.0 - ground_speed_mps / surface_speed_mps : surface_speed_mps / ground_speed_mps - 1.0;
   return std::clamp(slip, -1.0, 1.0);
 }
 
@@ -73,8 +72,8 @@ void RoverMotion::evaluate() {
   setAttitude(surface);
 
   const double direction = forward_.speed() < 0.0 ? -1.0 : 1.0;
-  const Slippage slippage = slip_model_.at({value_[kTravel], direction * state_.C_b_to_enu(2, 0),
-                                            -state_.C_b_to_enu(2, 1), surface.looseness});
+  const Slippage slippage = slip_model_.at(
+      {value_[kTravel], direction * state_.C_b_to_enu(2, 0), -state_.C_b_to_enu(2, 1), surface.looseness});
   moveBody(surface, slippage);
   turnWheels(slippage, state_.omega_eb_b.z());
 }

@@ -9,67 +9,51 @@ namespace {
 
 constexpr double kStandardGravity_mps2 = 9.80665;
 constexpr double kSecondsPerHour = 3600.0;
-/// Speed to which the grounds' vibration refers.
-constexpr double kVibrationSpeed_mps = 0.8;
 
 double fromDegPerHour(double rate_deg_per_h) { return degToRad(rate_deg_per_h) / kSecondsPerHour; }
 
 }  // namespace
 
-ImuModel::ImuModel(const ImuParams& params, const GroundParams& ground, std::uint64_t seed)
+ImuModel::ImuModel(const ImuParams& params, std::uint64_t seed)
     : params_(params),
       C_b_to_s_(q_b_to_n_fromEuler(degToRad(params.misalignment_roll_deg), degToRad(params.misalignment_pitch_deg),
                                    degToRad(params.misalignment_yaw_deg))
                     .toRotationMatrix()
                     .transpose()),
-      stream_(seed, "imu"),
-      vibration_stream_(seed, "vibration") {
+      stream_(seed, "imu") {
   if (params_.error_free) {
     return;
   }
   const double per_sqrt_s = 1.0 / std::sqrt(kSecondsPerHour);
   accel_.noise_density = params_.accel_noise_mps_per_sqrt_h * per_sqrt_s;
   accel_.in_run_sigma = params_.accel_in_run_bias_ug * 1e-6 * kStandardGravity_mps2;
-  accel_.vibration = params_.vibration * ground.vibration_mps2;
   turnOn(accel_, params_.accel_turn_on_bias_mg * 1e-3 * kStandardGravity_mps2, params_.scale_factor_ppm * 1e-6);
   gyro_.noise_density = degToRad(params_.gyro_noise_deg_per_sqrt_h) * per_sqrt_s;
   gyro_.in_run_sigma = fromDegPerHour(params_.gyro_in_run_bias_deg_per_h);
-  gyro_.vibration = params_.vibration * ground.vibration_radps;
   turnOn(gyro_, fromDegPerHour(params_.gyro_turn_on_bias_deg_per_h), params_.scale_factor_ppm * 1e-6);
 }
 
-Vector3 ImuModel::normal3(RandomStream& stream) const {
-  const double x = stream.normal();
-  const double y = stream.normal();
-  return {x, y, stream.normal()};
-}
-
 void ImuModel::turnOn(Triad& triad, double turn_on_sigma, double scale_sigma) {
-  triad.turn_on_bias = turn_on_sigma * normal3(stream_);
-  triad.scale = scale_sigma * normal3(stream_);
-  triad.in_run_bias = triad.in_run_sigma * normal3(stream_);
+  triad.turn_on_bias = turn_on_sigma * stream_.normal3();
+  triad.scale = scale_sigma * stream_.normal3();
+  triad.in_run_bias = triad.in_run_sigma * stream_.normal3();
   triad.bias = triad.turn_on_bias + triad.in_run_bias;
 }
 
-Vector3 ImuModel::corrupt(Triad& triad, const Vector3& value, double dt_s, double speed_mps) {
+Vector3 ImuModel::corrupt(Triad& triad, const Vector3& value, double dt_s) {
   const double persistence = std::exp(-dt_s / params_.bias_correlation_s);
   triad.in_run_bias = persistence * triad.in_run_bias +
-                      triad.in_run_sigma * std::sqrt(1.0 - persistence * persistence) * normal3(stream_);
+                      triad.in_run_sigma * std::sqrt(1.0 - persistence * persistence) * stream_.normal3();
   triad.bias = triad.turn_on_bias + triad.in_run_bias;
-  // vibration moves the rover to and fro, so its integral stays small: what it adds are differences of white noise
-  const double integral_sigma = triad.vibration * std::sqrt(0.5) / params_.rate_hz;
-  const Vector3 shake = integral_sigma * (speed_mps / kVibrationSpeed_mps) * normal3(vibration_stream_);
-  const Vector3 vibration = (shake - triad.shake) / dt_s;
-  triad.shake = shake;
-  const Vector3 noise = triad.noise_density / std::sqrt(dt_s) * normal3(stream_);
-  return value + triad.scale.cwiseProduct(value) + triad.bias + vibration + noise;
+  const Vector3 noise = triad.noise_density / std::sqrt(dt_s) * stream_.normal3();
+  return value + triad.scale.cwiseProduct(value) + triad.bias + noise;
 }
 
-ImuSample ImuModel::measure(const InertialMean& mean, Nanoseconds stamp, double dt_s, double speed_mps) {
+ImuSample ImuModel::measure(const InertialMean& mean, Nanoseconds stamp, double dt_s) {
   ImuSample sample{stamp, C_b_to_s_ * mean.f_ib_b, C_b_to_s_ * mean.omega_ib_b};
   if (!params_.error_free) {
-    sample.f_ib_b = corrupt(accel_, sample.f_ib_b, dt_s, speed_mps);
-    sample.omega_ib_b = corrupt(gyro_, sample.omega_ib_b, dt_s, speed_mps);
+    sample.f_ib_b = corrupt(accel_, sample.f_ib_b, dt_s);
+    sample.omega_ib_b = corrupt(gyro_, sample.omega_ib_b, dt_s);
   }
   return sample;
 }

@@ -11,6 +11,7 @@
 #include "slipnav/sim/random.h"
 #include "slipnav/sim/rover_motion.h"
 #include "slipnav/sim/sensor_models.h"
+#include "slipnav/sim/vibration.h"
 
 namespace slipnav::sim {
 namespace {
@@ -52,6 +53,7 @@ struct RoverSimulator::Parts {
   Nanoseconds start;
   RoverMotion motion;
   InertialTruth inertial;
+  Vibration vibration;
   ImuModel imu;
   EncoderModel encoder;
   GnssModel gps;
@@ -68,7 +70,8 @@ RoverSimulator::Parts::Parts(const SimulatorParams& p, const Planet& planet)
       start(fromSeconds(p.start_time_s)),
       motion(p.vehicle, ground, Driver::routeOf(p).startHeading(), p.drive.initial_straight_m, seedOf(p)),
       inertial(planet, frame, {p.imu.lever_arm_x_m, p.imu.lever_arm_y_m, p.imu.lever_arm_z_m}, motion.state()),
-      imu(p.imu, ground, seedOf(p)),
+      vibration(ground, p.imu.error_free ? 0.0 : p.imu.vibration, p.imu.rate_hz, seedOf(p)),
+      imu(p.imu, seedOf(p)),
       encoder(p.encoder, start, seedOf(p)),
       gps(p.gps, frame, seedOf(p), "gps"),
       truth_gnss(p.truth, frame, seedOf(p), "truth gnss"),
@@ -118,8 +121,9 @@ void RoverSimulator::Parts::updateTruth(Nanoseconds stamp) {
   const Matrix3 C_enu_to_n = frame.C_n_to_enu(truth.position).transpose();
   const Matrix3 C_b_to_n = C_enu_to_n * state.C_b_to_enu;
   // the IMU senses vibration as the motion that it is, so it belongs to the truth
-  truth.q_b_to_n = (Quaternion(C_b_to_n) * quaternionFromRotationVector(imu.shakenAngle())).normalized();
-  truth.v_eb_n = C_enu_to_n * state.v_eb_enu + C_b_to_n * imu.shakenVelocity();
+  truth.q_b_to_n = (Quaternion(C_b_to_n) * quaternionFromRotationVector(vibration.angle())).normalized();
+  truth.v_eb_n = C_enu_to_n * state.v_eb_enu + C_b_to_n * vibration.velocity();
+  truth.heading_rad = std::atan2(C_b_to_n(1, 0), C_b_to_n(0, 0));
   truth.v_eb_b = state.v_eb_b;
   truth.omega_ib_b = state.omega_eb_b + state.C_b_to_enu.transpose() * inertial.omega_ie_enu();
   truth.accel_bias_mps2 = imu.accelBias();
@@ -158,7 +162,8 @@ Measurements RoverSimulator::step(const Command& command) {
     p.sampleOthers(before, from, to, out);
     from = to;
   }
-  out.imu = p.imu.measure(p.inertial.finish(), end, interval_s, p.motion.state().v_eb_b.norm());
+  const InertialMean sensed = p.vibration.shake(p.inertial.finish(), interval_s, p.motion.state().v_eb_b.norm());
+  out.imu = p.imu.measure(sensed, end, interval_s);
   p.updateTruth(end);
   return out;
 }

@@ -8,21 +8,21 @@
 namespace slipnav::sim {
 namespace {
 
-constexpr double kFastCorrelation_m = 1.0;    // 1.25 s at 0.8 m/s
-constexpr double kSlowCorrelation_m = 12.0;   // 15 s at 0.8 m/s
+constexpr double kFastCorrelation_m = 1.0;   // 1.25 s at 0.8 m/s
+constexpr double kSlowCorrelation_m = 12.0;  // 15 s at 0.8 m/s
 constexpr double kWheelCorrelation_m = 0.5;
 constexpr double kLateralCorrelation_m = 6.0;
 constexpr double kTrackCorrelation_m = 4.0;
 /// Part of the fast slip's variance that both sides share.
 constexpr double kSharedFast = 0.7;
 
-constexpr double kSideImpulses = 0.35;        // part of the impulses that take one side,
-constexpr double kWheelImpulses = 0.3;        // and one wheel; the rest take all four
-constexpr double kImpulseMinLength_m = 0.3;   // 0.4 s at 0.8 m/s
-constexpr double kImpulseMaxLength_m = 1.6;   // 2 s at 0.8 m/s
-constexpr double kOtherSideShare = 0.6;       // a side that loses grip drags the whole rigid body
-constexpr double kWheelBodyShare = 0.3;       // one wheel of four loses grip: its side loses some way, ...
-constexpr double kWheelSpinShare = 0.4;       // ... and the unloaded wheel runs ahead of its command
+constexpr double kSideImpulses = 0.35;       // part of the impulses that take one side,
+constexpr double kWheelImpulses = 0.3;       // and one wheel; the rest take all four
+constexpr double kImpulseMinLength_m = 0.3;  // 0.4 s at 0.8 m/s
+constexpr double kImpulseMaxLength_m = 1.6;  // 2 s at 0.8 m/s
+constexpr double kOtherSideShare = 0.6;      // a side that loses grip drags the whole rigid body
+constexpr double kWheelBodyShare = 0.3;      // one wheel of four loses grip: its side loses some way, ...
+constexpr double kWheelSpinShare = 0.4;      // ... and the unloaded wheel runs ahead of its command
 
 /// No more than this part of the speed is lost, approached smoothly.
 constexpr double kMaxLoss = 0.9;
@@ -57,8 +57,12 @@ SlipModel::SlipModel(const SlipParams& params, std::uint64_t seed)
 }
 
 SlipModel::Impulse SlipModel::drawImpulse() {
-  Impulse impulse{next_impulse_m_, impulse_stream_.uniform(kImpulseMinLength_m, kImpulseMaxLength_m),
-                  impulse_stream_.uniform(params_.impulse_min, params_.impulse_max), 1.0, 1.0, {}};
+  Impulse impulse{next_impulse_m_,
+                  impulse_stream_.uniform(kImpulseMinLength_m, kImpulseMaxLength_m),
+                  impulse_stream_.uniform(params_.impulse_min, params_.impulse_max),
+                  1.0,
+                  1.0,
+                  {}};
   const double kind = impulse_stream_.uniform();
   const auto wheel = static_cast<std::size_t>(static_cast<double>(kWheelCount) * impulse_stream_.uniform());
   const bool left = wheel % 2 == 0;
@@ -100,9 +104,8 @@ Slippage SlipModel::at(const Footing& footing) {
   const double side = params_.fast * std::sqrt(1.0 - kSharedFast);
   slippage.left = footing.looseness * limited(slippage.left + both + side * fast_left_.at(travel_m));
   slippage.right = footing.looseness * limited(slippage.right + both + side * fast_right_.at(travel_m));
-  slippage.lateral =
-      footing.looseness * std::tan(degToRad(params_.side_slip_deg) * lateral_.at(travel_m) +
-                                   params_.side_slip_per_slope * footing.sin_cross);
+  slippage.lateral = footing.looseness * std::tan(degToRad(params_.side_slip_deg) * lateral_.at(travel_m) +
+                                                  params_.side_slip_per_slope * footing.sin_cross);
   slippage.track_factor = params_.track_factor + params_.track_factor_spread * track_.at(travel_m);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     slippage.spin_up[i] = footing.looseness * (slippage.spin_up[i] + params_.wheel_scatter * wheel_[i].at(travel_m));

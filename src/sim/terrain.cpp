@@ -89,8 +89,7 @@ SurfacePoint Terrain::blended(const Vector2& east_north_m, const Phases& phases)
   point.height_m = blend.value * open.height_m - start_height_m_;
   point.gradient = blend.value * open.gradient + open.height_m * blend.gradient;
   const Eigen::Matrix2d mixed = blend.gradient * open.gradient.transpose();
-  point.hessian_per_m =
-      blend.value * open.hessian_per_m + mixed + mixed.transpose() + open.height_m * blend.hessian;
+  point.hessian_per_m = blend.value * open.hessian_per_m + mixed + mixed.transpose() + open.height_m * blend.hessian;
   return point;
 }
 

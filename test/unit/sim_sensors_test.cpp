@@ -5,6 +5,7 @@
 
 #include "slipnav/sim/sensor_models.h"
 #include "slipnav/sim/simulator.h"
+#include "slipnav/sim/vibration.h"
 
 namespace slipnav::sim {
 namespace {
@@ -41,11 +42,11 @@ TEST(SimImu, WhiteNoiseHasTheDataSheetDensityAtAnyRateAndAveragingTime) {
   const double gyro_density = degToRad(0.1) / 60.0;  // 0.1 °/√h in rad/√s
   const double accel_density = 0.008 / 60.0;         // 0.008 m/s/√h in m/s/√s
   for (const double rate_hz : {50.0, 250.0}) {
-    ImuModel imu(noiseOnly(), groundByName("rough"), 3);
+    ImuModel imu(noiseOnly(), 3);
     std::vector<double> gyro;
     std::vector<double> accel;
     for (int i = 0; i < 100000; ++i) {
-      const ImuSample sample = imu.measure(kAtRest, i, 1.0 / rate_hz, 0.0);
+      const ImuSample sample = imu.measure(kAtRest, i, 1.0 / rate_hz);
       gyro.push_back(sample.omega_ib_b.y());
       accel.push_back(sample.f_ib_b.x());
     }
@@ -67,8 +68,8 @@ TEST(SimImu, TurnOnBiasesHaveTheirSpreadOverSeedsAndAreInTheSamples) {
   double accel2 = 0.0;
   const int seeds = 2000;
   for (int seed = 0; seed < seeds; ++seed) {
-    ImuModel imu(params, groundByName("rough"), static_cast<std::uint64_t>(seed));
-    const ImuSample sample = imu.measure(kAtRest, 0, 0.02, 0.0);
+    ImuModel imu(params, static_cast<std::uint64_t>(seed));
+    const ImuSample sample = imu.measure(kAtRest, 0, 0.02);
     EXPECT_LT((sample.omega_ib_b - imu.gyroBias()).norm(), 1e-15);
     EXPECT_LT((sample.f_ib_b - kAtRest.f_ib_b - imu.accelBias()).norm(), 1e-12);
     gyro2 += imu.gyroBias().squaredNorm() / (3.0 * seeds);
@@ -87,10 +88,10 @@ TEST(SimImu, InRunBiasIsAStationaryGaussMarkovProcess) {
   double lagged = 0.0;
   const int seeds = 3000;
   for (int seed = 0; seed < seeds; ++seed) {
-    ImuModel imu(params, groundByName("paved"), static_cast<std::uint64_t>(seed));
+    ImuModel imu(params, static_cast<std::uint64_t>(seed));
     const Vector3 first = imu.gyroBias();
     for (int i = 0; i < 10; ++i) {
-      imu.measure(kAtRest, 0, 10.0, 0.0);  // a time constant in ten steps
+      imu.measure(kAtRest, 0, 10.0);  // a time constant in ten steps
     }
     variance += imu.gyroBias().squaredNorm() / (3.0 * seeds);
     lagged += imu.gyroBias().dot(first) / (3.0 * seeds);
@@ -99,30 +100,34 @@ TEST(SimImu, InRunBiasIsAStationaryGaussMarkovProcess) {
   EXPECT_NEAR(lagged / (sigma * sigma), std::exp(-1.0), 0.06);
 }
 
-TEST(SimImu, VibratesInMotionOnlyAndWithoutDrift) {
-  ImuParams params = noiseOnly();
-  params.accel_noise_mps_per_sqrt_h = 0.0;
-  ImuModel imu(params, groundByName("gravel"), 1);
-  EXPECT_EQ(imu.measure(kAtRest, 0, 0.02, 0.0).f_ib_b, kAtRest.f_ib_b);
-  double sum = 0.0;
-  double sum2 = 0.0;
+TEST(SimVibration, ShakesInMotionOnlyAndWithoutDrift) {
+  const GroundParams ground = groundByName("gravel");
+  Vibration vibration(ground, 1.0, 50.0, 1);
+  EXPECT_EQ(vibration.shake(kAtRest, 0.02, 0.0).f_ib_b, kAtRest.f_ib_b);
+  double force2 = 0.0;
+  double rate2 = 0.0;
+  Vector3 velocity = Vector3::Zero();
+  Vector3 angle = Vector3::Zero();
   const int count = 20000;
   for (int i = 0; i < count; ++i) {
-    const double shake = imu.measure(kAtRest, i, 0.02, 0.8).f_ib_b.x();
-    sum += shake;
-    sum2 += shake * shake;
+    const InertialMean sensed = vibration.shake({Vector3::Zero(), Vector3::Zero()}, 0.02, kVibrationSpeed_mps);
+    force2 += sensed.f_ib_b.squaredNorm() / (3.0 * count);
+    rate2 += sensed.omega_ib_b.squaredNorm() / (3.0 * count);
+    velocity += 0.02 * sensed.f_ib_b;
+    angle += 0.02 * sensed.omega_ib_b;
+    EXPECT_LT((velocity - vibration.velocity()).norm(), 1e-12);
+    EXPECT_LT((angle - vibration.angle()).norm(), 1e-12);
   }
-  const double sigma = groundByName("gravel").vibration_mps2;
-  EXPECT_NEAR(std::sqrt(sum2 / count) / sigma, 1.0, 0.03);
-  EXPECT_LT(std::abs(sum), 5.0 * sigma);  // white noise would have walked to 140 sigma
+  EXPECT_NEAR(std::sqrt(force2) / ground.vibration_mps2, 1.0, 0.03);
+  EXPECT_NEAR(std::sqrt(rate2) / ground.vibration_radps, 1.0, 0.03);
 }
 
 TEST(SimImu, ErrorFreeLeavesTheMeansUntouched) {
   ImuParams params;
   params.error_free = true;
-  ImuModel imu(params, groundByName("rough"), 1);
+  ImuModel imu(params, 1);
   const InertialMean mean{Vector3(1.0, 2.0, -9.0), Vector3(0.1, 0.2, 0.3)};
-  const ImuSample sample = imu.measure(mean, 5, 0.02, 0.8);
+  const ImuSample sample = imu.measure(mean, 5, 0.02);
   EXPECT_EQ(sample.f_ib_b, mean.f_ib_b);
   EXPECT_EQ(sample.omega_ib_b, mean.omega_ib_b);
   EXPECT_EQ(imu.gyroBias(), Vector3(Vector3::Zero()));

@@ -9,11 +9,14 @@
 
 namespace slipnav::sim {
 
+/// Speed to which the grounds' vibration refers [m/s].
+inline constexpr double kVibrationSpeed_mps = 0.8;
+
 struct GroundParams {
   ReliefParams relief;
   SlipParams slip;
-  double vibration_mps2 = 0.0;     ///< 1σ of specific force at 0.8 m/s that passes the IMU's block mean
-  double vibration_radps = 0.0;    ///< 1σ of angular rate at 0.8 m/s that passes the IMU's block mean
+  double vibration_mps2 = 0.0;   ///< 1σ of specific force that passes the IMU's block mean
+  double vibration_radps = 0.0;  ///< 1σ of angular rate that passes the IMU's block mean
 };
 
 /// "paved", "unpaved", "gravel", "rough", and "rocking": strong roll and pitch without slip, to check mechanisations.

@@ -37,9 +37,9 @@ class InertialTruth {
   Vector3 omega_ie_enu_;
   Kinematics last_;
   Vector3 last_gravity_enu_;
-  Vector3 acceleration_sum_b_ = Vector3::Zero();  ///< ∫ Cᵀ (dv/dt + 2 ω_ie × v) dt
-  Vector3 rate_sum_b_ = Vector3::Zero();          ///< ∫ ω_ib dt
-  Matrix3 rotation_sum_ = Matrix3::Zero();        ///< ∫ C dt
+  Vector3 acceleration_sum_b_ = Vector3::Zero();            ///< ∫ Cᵀ (dv/dt + 2 ω_ie × v) dt
+  Vector3 rate_sum_b_ = Vector3::Zero();                    ///< ∫ ω_ib dt
+  Matrix3 rotation_sum_ = Matrix3::Zero();                  ///< ∫ C dt
   Vector3 angular_acceleration_b_ = Vector3::Zero();        ///< in the last step [rad/s²]
   Vector3 start_angular_acceleration_b_ = Vector3::Zero();  ///< at the start of the interval [rad/s²]
   double last_dt_s_ = 0.0;

@@ -9,10 +9,10 @@ namespace slipnav::sim {
 
 /// The rover's geometry and how it takes commands. Defaults are the paper's rover (Pathfinder).
 struct VehicleParams {
-  double wheel_radius_m = 0.11;      ///< nominal
-  double wheelbase_m = 0.555;        ///< between front and rear axle
-  double track_m = 0.685;            ///< between left and right wheels
-  double acceleration_mps2 = 0.6;    ///< limit of the speed ramp
+  double wheel_radius_m = 0.11;        ///< nominal
+  double wheelbase_m = 0.555;          ///< between front and rear axle
+  double track_m = 0.685;              ///< between left and right wheels
+  double acceleration_mps2 = 0.6;      ///< limit of the speed ramp
   double assumed_track_factor = 1.4;   ///< scrub that the controller allows for when it turns a yaw rate into speeds
   double common_radius_error = 0.005;  ///< 1σ of the relative radius error that all wheels share
   double wheel_radius_error = 0.002;   ///< 1σ of each wheel's own
@@ -31,14 +31,14 @@ struct ImuParams {
   double misalignment_roll_deg = 0.0;  ///< attitude of the sensor in the body that nobody knows of
   double misalignment_pitch_deg = 0.0;
   double misalignment_yaw_deg = 0.0;
-  double gyro_noise_deg_per_sqrt_h = 0.1;        ///< angle random walk
-  double accel_noise_mps_per_sqrt_h = 0.008;     ///< velocity random walk
-  double gyro_turn_on_bias_deg_per_h = 30.0;     ///< 1σ, what is left after the maker's and the user's calibration
-  double accel_turn_on_bias_mg = 1.5;            ///< 1σ, repeatability
-  double gyro_in_run_bias_deg_per_h = 1.6;       ///< 1σ of the Gauss-Markov part
-  double accel_in_run_bias_ug = 3.2;             ///< 1σ of the Gauss-Markov part
-  double bias_correlation_s = 1500.0;            ///< time constant of the Gauss-Markov part
-  double scale_factor_ppm = 200.0;               ///< 1σ, each axis of both triads
+  double gyro_noise_deg_per_sqrt_h = 0.1;     ///< angle random walk
+  double accel_noise_mps_per_sqrt_h = 0.008;  ///< velocity random walk
+  double gyro_turn_on_bias_deg_per_h = 30.0;  ///< 1σ, what is left after the maker's and the user's calibration
+  double accel_turn_on_bias_mg = 1.5;         ///< 1σ, repeatability
+  double gyro_in_run_bias_deg_per_h = 1.6;    ///< 1σ of the Gauss-Markov part
+  double accel_in_run_bias_ug = 3.2;          ///< 1σ of the Gauss-Markov part
+  double bias_correlation_s = 1500.0;         ///< time constant of the Gauss-Markov part
+  double scale_factor_ppm = 200.0;            ///< 1σ, each axis of both triads
   double vibration = 1.0;  ///< factor on the terrain's vibration that the block mean lets through while driving
 
   void visit(ParameterVisitor& v);
@@ -76,8 +76,8 @@ struct DriveParams {
 
 struct SimulatorParams {
   int seed = 1;
-  std::string terrain = "rough";  ///< one of kTerrainNames (ground.h)
-  double start_time_s = 1.6e9;    ///< stamp of the start pose
+  std::string terrain = "rough";        ///< one of kTerrainNames (ground.h)
+  double start_time_s = 1.6e9;          ///< stamp of the start pose
   double start_latitude_deg = 39.7389;  ///< Point Marion, Pennsylvania: the paper's ash pile
   double start_longitude_deg = -79.8987;
   double start_height_m = 250.0;

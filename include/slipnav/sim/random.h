@@ -5,6 +5,8 @@
 #include <random>
 #include <string_view>
 
+#include "slipnav/types.h"
+
 namespace slipnav::sim {
 
 /// An independent stream for each purpose, so that drawing more of one leaves the others as they were.
@@ -20,6 +22,8 @@ class RandomStream {
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
   /// Standard normal, by Box and Muller.
   double normal();
+  /// Three independent standard normals.
+  Vector3 normal3();
 
  private:
   std::mt19937_64 engine_;  // its output sequence is fixed by the C++ standard; std::normal_distribution's is not

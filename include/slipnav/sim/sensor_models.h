@@ -3,7 +3,6 @@
 
 #include "slipnav/earth/local_frame.h"
 #include "slipnav/sensors.h"
-#include "slipnav/sim/ground.h"
 #include "slipnav/sim/inertial_truth.h"
 #include "slipnav/sim/params.h"
 #include "slipnav/sim/random.h"
@@ -24,41 +23,33 @@ class SampleClock {
   std::int64_t index_ = 1;
 };
 
-/// Noise, turn-on and in-run biases, scale factors, misalignment, vibration.
+/// Noise, turn-on and in-run biases, scale factors, misalignment.
 class ImuModel {
  public:
-  ImuModel(const ImuParams& params, const GroundParams& ground, std::uint64_t seed);
+  ImuModel(const ImuParams& params, std::uint64_t seed);
 
-  /// @param mean error-free output over the interval
-  /// @param speed_mps of the rover, for the vibration
-  ImuSample measure(const InertialMean& mean, Nanoseconds stamp, double dt_s, double speed_mps);
+  /// @param mean what an ideal sensor along body axes senses over the interval
+  ImuSample measure(const InertialMean& mean, Nanoseconds stamp, double dt_s);
 
   const Vector3& accelBias() const { return accel_.bias; }  ///< [m/s²]
   const Vector3& gyroBias() const { return gyro_.bias; }    ///< [rad/s]
-  /// What vibration adds to the velocity [m/s] and attitude [rad] of the rover at the last stamp, body axes.
-  const Vector3& shakenVelocity() const { return accel_.shake; }
-  const Vector3& shakenAngle() const { return gyro_.shake; }
 
  private:
   /// The errors of three axes of one kind, SI.
   struct Triad {
-    double noise_density = 0.0;      ///< per √Hz
+    double noise_density = 0.0;  ///< per √Hz
     double in_run_sigma = 0.0;
-    double vibration = 0.0;          ///< 1σ at 0.8 m/s
     Vector3 scale = Vector3::Zero();
     Vector3 turn_on_bias = Vector3::Zero();
     Vector3 in_run_bias = Vector3::Zero();
     Vector3 bias = Vector3::Zero();  ///< sum of both
-    Vector3 shake = Vector3::Zero();  ///< integral of the vibration
   };
-  Vector3 normal3(RandomStream& stream) const;
   void turnOn(Triad& triad, double turn_on_sigma, double scale_sigma);
-  Vector3 corrupt(Triad& triad, const Vector3& value, double dt_s, double speed_mps);
+  Vector3 corrupt(Triad& triad, const Vector3& value, double dt_s);
 
   ImuParams params_;
   Matrix3 C_b_to_s_;  ///< true mounting: body to sensor axes
   RandomStream stream_;
-  RandomStream vibration_stream_;
   Triad accel_;
   Triad gyro_;
 };

@@ -30,9 +30,9 @@ struct Command {
 struct Measurements {
   ImuSample imu;
   std::optional<WheelSample> wheel;
-  PerWheel wheel_angle_rad = {};   ///< accumulated, quantised; goes with `wheel`
-  std::optional<GnssFix> gps;      ///< for initialisation
-  std::optional<GnssFix> truth;    ///< for metrics only
+  PerWheel wheel_angle_rad = {};  ///< accumulated, quantised; goes with `wheel`
+  std::optional<GnssFix> gps;     ///< for initialisation
+  std::optional<GnssFix> truth;   ///< for metrics only
 };
 
 class RoverSimulator {

@@ -11,37 +11,37 @@ namespace slipnav::sim {
 
 /// Slip of one kind of ground. Ratios are parts of the wheel's surface speed.
 struct SlipParams {
-  double mean = 0.0;                  ///< persistent part on the level
-  double mean_spread = 0.0;           ///< 1σ between drives, relative to `mean`
-  double climb = 0.0;                 ///< per sine of the slope along the track: positive uphill, negative downhill
-  double sinkage = 0.0;               ///< per squared sine of the slope along the track: both ways
-  double fast = 0.0;                  ///< 1σ of the part with a correlation of about a second
-  double slow = 0.0;                  ///< 1σ of the part with a correlation of about fifteen seconds
-  double wheel_scatter = 0.0;         ///< 1σ of each wheel's own speed
+  double mean = 0.0;           ///< persistent part on the level
+  double mean_spread = 0.0;    ///< 1σ between drives, relative to `mean`
+  double climb = 0.0;          ///< per sine of the slope along the track: positive uphill, negative downhill
+  double sinkage = 0.0;        ///< per squared sine of the slope along the track: both ways
+  double fast = 0.0;           ///< 1σ of the part with a correlation of about a second
+  double slow = 0.0;           ///< 1σ of the part with a correlation of about fifteen seconds
+  double wheel_scatter = 0.0;  ///< 1σ of each wheel's own speed
   double impulses_per_m = 0.0;
-  double impulse_min = 0.0;           ///< peak of an impulse
+  double impulse_min = 0.0;  ///< peak of an impulse
   double impulse_max = 0.0;
-  double side_slip_deg = 0.0;         ///< 1σ of the correlated slip angle
-  double side_slip_per_slope = 0.0;   ///< slip angle [rad] per sine of the cross slope
-  double track_factor = 1.0;          ///< effective over geometric track when the rover turns (scrub)
-  double track_factor_spread = 0.0;   ///< 1σ along the way
+  double side_slip_deg = 0.0;        ///< 1σ of the correlated slip angle
+  double side_slip_per_slope = 0.0;  ///< slip angle [rad] per sine of the cross slope
+  double track_factor = 1.0;         ///< effective over geometric track when the rover turns (scrub)
+  double track_factor_spread = 0.0;  ///< 1σ along the way
 };
 
 /// Where the rover is, as far as slip is concerned.
 struct Footing {
-  double travel_m = 0.0;      ///< of the wheels' surface, never decreasing
-  double sin_climb = 0.0;     ///< sine of the slope in the direction of motion, positive uphill
-  double sin_cross = 0.0;     ///< sine of the slope across, positive when the right side is low
-  double looseness = 0.0;     ///< factor on all slip
+  double travel_m = 0.0;   ///< of the wheels' surface, never decreasing
+  double sin_climb = 0.0;  ///< sine of the slope in the direction of motion, positive uphill
+  double sin_cross = 0.0;  ///< sine of the slope across, positive when the right side is low
+  double looseness = 0.0;  ///< factor on all slip
 };
 
 /// What the ground does to the commanded motion.
 struct Slippage {
-  double left = 0.0;          ///< part of the left wheels' surface speed by which that side falls behind
+  double left = 0.0;  ///< part of the left wheels' surface speed by which that side falls behind
   double right = 0.0;
-  double lateral = 0.0;       ///< sideways over forward speed, positive to the right
+  double lateral = 0.0;  ///< sideways over forward speed, positive to the right
   double track_factor = 1.0;
-  PerWheel spin_up = {};      ///< excess of each wheel's speed over its command, relative
+  PerWheel spin_up = {};  ///< excess of each wheel's speed over its command, relative
 };
 
 class SlipModel {

@@ -11,20 +11,20 @@ namespace slipnav::sim {
 
 /// Shape of the ground. Slopes are root mean squares along a straight track.
 struct ReliefParams {
-  double slope_deg = 0.0;                ///< of the long waves
+  double slope_deg = 0.0;  ///< of the long waves
   double slope_min_wavelength_m = 20.0;
   double slope_max_wavelength_m = 150.0;
-  double roughness_deg = 0.0;            ///< of the short waves, before the vehicle's footprint smooths them
+  double roughness_deg = 0.0;  ///< of the short waves, before the vehicle's footprint smooths them
   double roughness_min_wavelength_m = 0.7;
   double roughness_max_wavelength_m = 10.0;
 };
 
 /// The surface that the centre of the wheels follows, at one place.
 struct SurfacePoint {
-  double height_m = 0.0;          ///< above the start
-  Vector2 gradient = Vector2::Zero();                          ///< d/d(east, north)
-  Eigen::Matrix2d hessian_per_m = Eigen::Matrix2d::Zero();     ///< second derivatives
-  double looseness = 0.0;         ///< 0 on the firm area around the start, 1 out in the terrain
+  double height_m = 0.0;                                    ///< above the start
+  Vector2 gradient = Vector2::Zero();                       ///< d/d(east, north)
+  Eigen::Matrix2d hessian_per_m = Eigen::Matrix2d::Zero();  ///< second derivatives
+  double looseness = 0.0;  ///< 0 on the firm area around the start, 1 out in the terrain
 };
 
 class Terrain {
