@@ -31,6 +31,7 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
       dynamics_(planet, setup.imu, setup.vehicle),
       detector_(setup.stationary),
       update_(setup.filter),
+      tremor_(setup.zero),
       use_wheel_(setup.filter.uses("wheel")),
       use_nonholonomic_(setup.filter.uses("nonholonomic")),
       use_zupt_(setup.filter.uses("zupt")),
@@ -54,6 +55,10 @@ void FilterEngine::initialise(const InitialState& initial) {
   estimate_ = Estimate{};
   detector_.reset();
   update_ = GatedUpdate(setup_.filter);
+  tremor_ = Tremor(setup_.zero);
+  if (initial.tremor_variance > 0.0) {
+    tremor_.setVariance(initial.tremor_variance);
+  }
   average_.restart(0);
   steps_.clear();
   // A wheel interval that began before the initial state is not known in full and goes unused.
@@ -189,6 +194,9 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   estimate_.motion = motion;
   const double gravity_mps2 = planet_.gravity_n(state_.position).norm();
   const bool at_rest = detector_.isStationary(gravity_mps2);
+  if (at_rest && use_zupt_) {
+    tremor_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
+  }
   const std::uint64_t zero_updates = update_.status(kZeroVelocity).accepted;
   const bool corrected = update(at_rest ? restingMeasurements(motion) : movingMeasurements(wheels, motion));
   estimate_.stationary = at_rest && (!use_zupt_ || update_.status(kZeroVelocity).accepted > zero_updates);
@@ -218,7 +226,7 @@ MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const
 MeasurementSet FilterEngine::restingMeasurements(const BodyMotion& motion) const {
   MeasurementSet set;
   if (use_zupt_) {
-    set.add(kZeroVelocity, zeroVelocityMeasurement(setup_.zero, state_));
+    set.add(kZeroVelocity, zeroVelocityMeasurement(tremor_.variance(), state_));
   }
   if (use_zaru_) {
     set.add(kZeroRate, zeroAngularRateMeasurement(setup_.zero, dynamics_.gyroNoiseDensity(), motion, state_,

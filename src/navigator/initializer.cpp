@@ -350,6 +350,7 @@ InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until
   result.nav = navigator.filter().state();
   result.vehicle = navigator.filter().vehicle();
   result.P = navigator.filter().covariance();
+  result.tremor_variance = navigator.filter().tremorVariance();
   return result;
 }
 

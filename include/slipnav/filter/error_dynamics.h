@@ -13,8 +13,8 @@ struct ImuNoiseParams {
   double gyro_noise_deg_per_sqrt_h = 0.1;
   double accel_bias_std_ug = 1500.0;
   double gyro_bias_std_deg_per_h = 250.0;
-  double accel_bias_walk_ug_per_sqrt_h = 10.0;
-  double gyro_bias_walk_deg_per_h_per_sqrt_h = 1.0;
+  double accel_bias_walk_ug_per_sqrt_h = 100.0;
+  double gyro_bias_walk_deg_per_h_per_sqrt_h = 3.5;
   double gyro_scale_std_ppm = 200.0;
   void visit(ParameterVisitor& v);
 };

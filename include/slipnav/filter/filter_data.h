@@ -17,6 +17,7 @@ struct InitialState {
   VehicleState vehicle;
   ErrorCovariance P = ErrorCovariance::Identity();
   Geodetic origin;  ///< of the map frame
+  double tremor_variance = 0.0;  ///< of the velocity at standstill as learned so far [m²/s²]; 0: not yet
 };
 
 /// Mean wheel motion over the interval that ends at `stamp`, whatever message it came in.

@@ -51,6 +51,7 @@ class FilterEngine {
   const ErrorCovariance& covariance() const { return P_; }
   const NavigationState& state() const { return state_; }
   const VehicleState& vehicle() const { return vehicle_; }
+  double tremorVariance() const { return tremor_.variance(); }
   const ErrorTransition& lastTransition() const { return transition_; }
   const ComponentStatus& status(Component component) const { return update_.status(component); }
   const ErrorDynamics& dynamics() const { return dynamics_; }
@@ -72,6 +73,7 @@ class FilterEngine {
   ErrorDynamics dynamics_;
   StationaryDetector detector_;
   GatedUpdate update_;
+  Tremor tremor_;
   bool use_wheel_;
   bool use_nonholonomic_;
   bool use_zupt_;

@@ -8,13 +8,37 @@
 namespace slipnav {
 
 struct ZeroMotionParams {
-  double velocity_std_mps = 0.001;
+  double velocity_std_mps = 0.002;
+  double least_velocity_std_mps = 0.00002;
+  double largest_velocity_std_mps = 0.02;
+  double adaptation_samples = 20.0;
   double rate_std_deg_per_h = 0.0;
   void visit(ParameterVisitor& v);
 };
 
-/// v_eb^n = 0, three rows.
-Measurement zeroVelocityMeasurement(const ZeroMotionParams& params, const NavigationState& state);
+/// How much the rover trembles at standstill: the variance of its velocity, learned from the innovations of zero
+/// velocity updates. E[r²] = H P Hᵀ + R, so R follows r² − H P Hᵀ, weighted by how much of the innovation R explains.
+class Tremor {
+ public:
+  explicit Tremor(const ZeroMotionParams& params);
+
+  /// Of the velocity on each axis [m²/s²].
+  double variance() const { return variance_; }
+  void setVariance(double variance) { variance_ = variance; }
+
+  /// @param velocity_n estimated velocity at standstill before the update
+  /// @param predicted_variance mean over the axes of its variance in P
+  void learn(const Vector3& velocity_n, double predicted_variance);
+
+ private:
+  double least_variance_;
+  double largest_variance_;
+  double gain_;
+  double variance_;
+};
+
+/// v_eb^n = 0, three rows, with the variance of the tremor on each axis.
+Measurement zeroVelocityMeasurement(double variance, const NavigationState& state);
 
 /// ω_ib^b = C_n_to_b ω_ie^n, three rows. The noise is that of the gyros averaged over the interval, with
 /// `gyro_noise_density` in rad²/s (angle random walk squared), and what the vehicle's own tremor adds.

@@ -15,7 +15,7 @@ namespace slipnav {
 struct StationaryParams {
   double window_s = 0.3;
   double hold_off_s = 0.2;
-  double wheel_speed_mps = 0.005;
+  double wheel_speed_mps = 0.0005;
   double accel_std_mps2 = 0.05;
   double gyro_std_deg_per_s = 0.3;
   double shoe_threshold = 6.0;

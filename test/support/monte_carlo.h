@@ -1,0 +1,35 @@
+#pragma once
+/// Simulated drives through the navigation, with what is needed to judge its covariance.
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "slipnav/config/config.h"
+#include "slipnav/filter/filter_data.h"
+
+namespace slipnav::test {
+
+/// Squared normalised errors at one epoch, three degrees of freedom each.
+struct Nees {
+  double attitude = 0.0;
+  double velocity = 0.0;
+  double position = 0.0;
+};
+
+struct DriveResult {
+  std::vector<Nees> by_minute;  ///< at 60 s, 120 s, … after the initialisation
+  std::array<ComponentStatus, kComponents> components;
+  double enu_error_pct = 0.0;
+  double final_error_pct = 0.0;  ///< horizontal
+  double distance_m = 0.0;
+  double coverage_3sigma_pct = 0.0;
+  ErrorVector final_error = ErrorVector::Zero();
+  ErrorVector final_sigma = ErrorVector::Zero();
+};
+
+/// One drive of config.simulator under the policy; truth is the simulator's own state.
+DriveResult runDrive(const Config& config, const std::string& policy);
+
+}  // namespace slipnav::test
