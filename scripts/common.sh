@@ -27,7 +27,7 @@ step() {
   say "$what"
   "$@" >"$log" 2>&1 || status=$?
   if ((status != 0)); then
-    tail -n 40 "$log" >&2
+    tail -n 40 "$log" | cut -c 1-300 >&2
     say "$what: failed with status $status (all of it: ${log#"$PWD/"})"
   fi
   return "$status"

@@ -62,7 +62,7 @@ void MarkdownWriter::words(const char* name, std::vector<std::string>& value,
 }
 
 std::string MarkdownWriter::markdown() const {
-  std::string text;
+  std::string text = "# Configuration reference\n\n";
   for (const Section& section : sections_) {
     if (!section.key.empty()) {
       text += "## " + code(section.key) + "\n\n" + section.meaning + "\n\n";

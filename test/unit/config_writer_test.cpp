@@ -108,7 +108,9 @@ TEST(ConfigYamlWriter, LongCommentsAreWrapped) {
 }
 
 TEST(ConfigMarkdownWriter, OneTableForEachBlock) {
-  EXPECT_EQ(toMarkdown(SampleParameters{}), R"(| key | default | allowed | meaning |
+  EXPECT_EQ(toMarkdown(SampleParameters{}), R"(# Configuration reference
+
+| key | default | allowed | meaning |
 |---|---|---|---|
 | `seed` | `1` | 0 to 100 | random seed |
 | `enabled` | `true` | true or false | whether anything happens |
