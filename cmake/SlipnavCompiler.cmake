@@ -33,7 +33,8 @@ function(slipnav_configure_target target)
   if(SLIPNAV_SANITIZE)
     # GCC takes the sanitizers' own code for uninitialised use, in Eigen above all.
     target_compile_options(${target} PRIVATE
-      -Wno-maybe-uninitialized -fsanitize=${SLIPNAV_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+      $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+      -fsanitize=${SLIPNAV_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${SLIPNAV_SANITIZE})
   endif()
   if(SLIPNAV_CLANG_TIDY)
