@@ -35,9 +35,11 @@ void ImuConfig::visit(ParameterVisitor& v) {
 void Config::visit(ParameterVisitor& v) {
   v.choice("planet", planet, {"earth", "mars", "moon"}, "whose ellipsoid, gravity and rotation hold");
   v.group("topics", topics, "what the robot or the recording calls each topic");
+  v.group("frames", frames, "coordinate frames");
   v.group("imu", imu, "the inertial sensor");
   v.group("gps_mount", gps_mount, "where the antenna of gps/fix is");
   v.group("truth_mount", truth_mount, "where the point is whose position the truth topics give");
+  v.group("truth", truth, "how truth is laid over the estimate");
   v.list("wheels", wheels, "driven wheels, in the order of slip messages");
   v.group("wheel", wheel, "what the wheels' speeds are worth");
   v.group("vehicle", vehicle, "how vehicle and ground behave between measurements");

@@ -4,10 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "slipnav/config/frames.h"
 #include "slipnav/config/override.h"
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/config/topics.h"
 #include "slipnav/earth/planet.h"
+#include "slipnav/eval/truth_params.h"
 #include "slipnav/measurement/imu_mount.h"
 #include "slipnav/measurement/wheel_geometry.h"
 #include "slipnav/navigator/pipeline.h"
@@ -26,9 +28,11 @@ struct ImuConfig {
 struct Config {
   std::string planet = "earth";
   TopicNames topics;
+  FrameNames frames;
   ImuConfig imu;
   MountParams gps_mount;
   MountParams truth_mount;
+  TruthParams truth;
   std::vector<WheelParams> wheels = pathfinderWheels();
   WheelOdometryParams wheel;
   VehicleModelParams vehicle;

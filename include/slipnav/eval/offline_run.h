@@ -13,12 +13,6 @@
 
 namespace slipnav {
 
-/// How truth is laid over the estimate.
-struct TruthAlignment {
-  std::optional<StartAlignment> at_start;    ///< for truth in a frame of its own
-  std::optional<double> heading_distance_m;  ///< turn truth to fit the first metres, for fixes too poor to tell more
-};
-
 class OfflineRun {
  public:
   /// @param with_baselines also run the pipeline without zero updates, for no_zupt_error_pct

@@ -27,6 +27,9 @@ class ImuMount {
 
   ImuSample toBody(Nanoseconds stamp, const Vector3& specific_force, const Vector3& angular_rate) const;
 
+  /// A vector of the body axes in the sensor's own axes.
+  Vector3 toSensor(const Vector3& v_b) const { return C_sensor_to_b_.transpose() * v_b; }
+
  private:
   Matrix3 C_sensor_to_b_;
 };

@@ -1,6 +1,8 @@
 #pragma once
 /// Wheel speed and wheel heading rate as measurements of the error state (Groves 16.3), with slip as states.
 
+#include <string>
+
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/filter/kalman_update.h"
 #include "slipnav/measurement/body_motion.h"
@@ -9,6 +11,7 @@
 namespace slipnav {
 
 struct WheelOdometryParams {
+  std::string source = "auto";
   double speed_std_mps = 0.01;
   double slip_noise_std = 0.03;
   double yaw_rate_std_deg_per_s = 3.0;

@@ -1,0 +1,22 @@
+#pragma once
+/// Names of coordinate frames (REP-105), and where the poses of the sensors come from.
+
+#include <string>
+
+#include "slipnav/config/parameter_visitor.h"
+
+namespace slipnav {
+
+struct FrameNames {
+  std::string map = "map";
+  std::string odom = "odom";
+  std::string base = "base_link";
+  std::string imu = "imu_link";
+  std::string gps = "gps";
+  std::string extrinsics = "parameters";
+  void visit(ParameterVisitor& v);
+
+  bool extrinsicsFromTf() const { return extrinsics == "tf"; }
+};
+
+}  // namespace slipnav

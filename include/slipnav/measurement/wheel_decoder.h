@@ -1,0 +1,49 @@
+#pragma once
+/// Wheel rates from arrays of named joints, as sensor_msgs/JointState has them.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipnav/measurement/wheel_geometry.h"
+#include "slipnav/sensors.h"
+
+namespace slipnav {
+
+/// One message: arrays are empty or as long as `names`. With no names at all, values stand in the order of the
+/// configured wheels.
+struct JointArrays {
+  Nanoseconds stamp = 0;
+  const std::vector<std::string>& names;
+  const std::vector<double>& position_rad;
+  const std::vector<double>& velocity_radps;
+};
+
+class WheelDecoder {
+ public:
+  explicit WheelDecoder(std::vector<WheelParams> wheels) : wheels_(std::move(wheels)) {}
+
+  /// Rates by the velocities, or where there are none by the difference of positions to the message before; positive
+  /// forward. Nothing for a message that cannot be used, with the reason in problem(), and nothing without a problem
+  /// for the first of a series of positions. A message that cannot be used leaves the decoder as it was.
+  std::optional<WheelSample> decode(const JointArrays& joints);
+
+  /// What was wrong with the last message, "" when nothing.
+  const std::string& problem() const { return problem_; }
+
+  /// Forgets the positions of the message before.
+  void reset() { last_.reset(); }
+
+ private:
+  bool locate(const JointArrays& joints);
+  std::optional<WheelSample> pick(const JointArrays& joints, const std::vector<double>& values, const char* what);
+  std::optional<WheelSample> fromPositions(const JointArrays& joints);
+
+  std::vector<WheelParams> wheels_;
+  std::vector<std::string> names_;    ///< of the message that `indices_` belongs to
+  std::vector<std::size_t> indices_;  ///< where each wheel stands in the arrays
+  std::optional<WheelSample> last_;   ///< angles [rad] in place of rates
+  std::string problem_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,78 @@
+#include "slipnav/measurement/wheel_decoder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipnav {
+
+std::optional<WheelSample> WheelDecoder::decode(const JointArrays& joints) {
+  problem_.clear();
+  if (!locate(joints)) {
+    return std::nullopt;
+  }
+  if (!joints.velocity_radps.empty()) {
+    return pick(joints, joints.velocity_radps, "velocity");
+  }
+  return fromPositions(joints);
+}
+
+bool WheelDecoder::locate(const JointArrays& joints) {
+  if (!indices_.empty() && joints.names == names_) {
+    return true;
+  }
+  std::vector<std::size_t> indices;
+  for (const WheelParams& wheel : wheels_) {
+    const auto found = std::find(joints.names.begin(), joints.names.end(), wheel.name);
+    if (joints.names.empty()) {
+      indices.push_back(indices.size());
+    } else if (found != joints.names.end()) {
+      indices.push_back(static_cast<std::size_t>(found - joints.names.begin()));
+    } else {
+      problem_ = "has no joint '" + wheel.name + "'";
+      return false;
+    }
+  }
+  names_ = joints.names;
+  indices_ = std::move(indices);
+  return true;
+}
+
+std::optional<WheelSample> WheelDecoder::pick(const JointArrays& joints, const std::vector<double>& values,
+                                              const char* what) {
+  const bool complete = joints.names.empty() ? values.size() >= wheels_.size() : values.size() == joints.names.size();
+  if (!complete) {
+    problem_ = "has " + std::to_string(values.size()) + " values of " + what + " for " +
+               std::to_string(joints.names.empty() ? wheels_.size() : joints.names.size()) + " joints";
+    return std::nullopt;
+  }
+  WheelSample sample;
+  sample.stamp = joints.stamp;
+  sample.count = wheels_.size();
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    sample.rate_radps[i] = wheels_[i].sign * values[indices_[i]];
+    if (!std::isfinite(sample.rate_radps[i])) {
+      problem_ = std::string("has a ") + what + " of joint '" + wheels_[i].name + "' that is not a finite number";
+      return std::nullopt;
+    }
+  }
+  return sample;
+}
+
+std::optional<WheelSample> WheelDecoder::fromPositions(const JointArrays& joints) {
+  const std::optional<WheelSample> angles = pick(joints, joints.position_rad, "position");
+  if (!angles) {
+    return std::nullopt;
+  }
+  const std::optional<WheelSample> before = last_;
+  last_ = angles;
+  if (!before || angles->stamp <= before->stamp) {
+    return std::nullopt;
+  }
+  WheelSample rates = *angles;
+  for (std::size_t i = 0; i < rates.count; ++i) {
+    rates.rate_radps[i] = (angles->rate_radps[i] - before->rate_radps[i]) / toSeconds(angles->stamp - before->stamp);
+  }
+  return rates;
+}
+
+}  // namespace slipnav
