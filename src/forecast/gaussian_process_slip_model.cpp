@@ -134,6 +134,7 @@ std::vector<Eigen::VectorXd> GaussianProcessSlipModel::startPoints(GaussianProce
                                                                    const std::vector<LogPrior>& priors,
                                                                    int& evaluations) const {
   std::vector<Eigen::VectorXd> cold;
+  cold.reserve(kColdStarts.size());
   for (const double factor : kColdStarts) {
     cold.push_back(startPoint(latent_, priors, factor));
   }
