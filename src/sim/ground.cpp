@@ -73,8 +73,8 @@ GroundParams gravel() {
 
 GroundParams rough() {
   GroundParams g;
-  g.relief.slope_deg = 4.5;
-  g.relief.roughness_deg = 2.5;
+  g.relief.slope_deg = 4.2;
+  g.relief.roughness_deg = 2.3;
   g.slip.mean = 0.086;
   g.slip.mean_spread = 0.1;
   g.slip.climb = 0.6;
