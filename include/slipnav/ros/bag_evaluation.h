@@ -1,0 +1,24 @@
+#pragma once
+/// A recording through the pipeline as fast as it goes, and what comes out of it.
+
+#include <map>
+#include <string>
+
+#include "slipnav/config/config.h"
+#include "slipnav/eval/report.h"
+
+namespace slipnav {
+
+struct BagEvaluation {
+  RunReport report;
+  std::map<std::string, int> problems;  ///< messages that could not be used: what was wrong, how often
+};
+
+/// @param truth topic or RTKLIB file (.pos) of the truth; "" for what the recording has, see BagReader
+/// Throws std::invalid_argument for a recording that cannot be used, std::runtime_error when no start could be found.
+BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth);
+
+/// Name of a run in tables: the file without folder and ending.
+std::string runName(const std::string& path);
+
+}  // namespace slipnav

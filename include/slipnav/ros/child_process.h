@@ -1,0 +1,35 @@
+#pragma once
+/// Another program, started by an executable of this package.
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace slipnav {
+
+class ChildProcess {
+ public:
+  /// @param command the program (looked for in PATH when it has no slash) and its arguments
+  /// Throws std::runtime_error that names the program when it cannot be started.
+  explicit ChildProcess(const std::vector<std::string>& command);
+  /// Interrupts the program if it still runs, and waits for its end.
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// The exit status once it has ended (128 + signal when it was killed), nothing while it runs.
+  std::optional<int> poll();
+  /// Waits for the end. @return the exit status as above
+  int wait();
+
+ private:
+  pid_t pid_;
+  std::optional<int> status_;
+};
+
+/// An executable or script that stands beside the running one.
+std::string besideThisExecutable(const std::string& name);
+
+}  // namespace slipnav

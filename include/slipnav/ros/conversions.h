@@ -1,0 +1,65 @@
+#pragma once
+/// Between the messages at the boundary and the core. Nodelets and offline tools use the same functions, so that both
+/// work with the same numbers bit for bit.
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <ros/time.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/NavSatFix.h>
+#include <slipnav/NavState.h>
+#include <slipnav/Slip.h>
+
+#include <optional>
+#include <string>
+
+#include "slipnav/config/frames.h"
+#include "slipnav/eval/truth_track.h"
+#include "slipnav/filter/filter_data.h"
+#include "slipnav/measurement/imu_mount.h"
+#include "slipnav/navigator/output.h"
+#include "slipnav/sensors.h"
+#include "slipnav/slip/vehicle_slip.h"
+
+namespace slipnav {
+
+inline Nanoseconds toNanoseconds(const ros::Time& time) { return static_cast<Nanoseconds>(time.toNSec()); }
+inline ros::Time toRosTime(Nanoseconds stamp) {
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(stamp));
+  return time;
+}
+
+ImuSample toImuSample(const sensor_msgs::Imu& message, const ImuMount& mount);
+
+/// Nothing for a message without a fix or with numbers that are not finite. Where the receiver does not know its
+/// covariance, 5 m horizontally and 10 m vertically (1σ) are taken.
+std::optional<GnssFix> toGnssFix(const sensor_msgs::NavSatFix& message);
+
+/// The other way round.
+void fill(const GnssFix& fix, const std::string& frame_id, sensor_msgs::NavSatFix& message);
+
+/// A pose of truth, in whatever frame it is. Nothing when it is not finite.
+std::optional<TruthSample> toTruthSample(const nav_msgs::Odometry& message);
+std::optional<TruthSample> toTruthSample(const geometry_msgs::PoseStamped& message);
+
+/// A true pose and velocity as the state of the IMU. The frame of the message is taken as east-north-up about `origin`.
+NavigationState toNavigationState(const nav_msgs::Odometry& message, const LocalFrame& origin,
+                                  const Vector3& imu_position_b);
+
+/// Pose in `odom`, twist in base_link; covariances in the same axes.
+void fill(const Output& output, const FrameNames& frames, nav_msgs::Odometry& message);
+
+/// The transform odom → base_link.
+geometry_msgs::TransformStamped toTransform(const Output& output, const FrameNames& frames);
+
+/// @param frame the local frame of the estimate; @param max_wheel_interval_s longer without wheels is inertial
+void fill(const Estimate& estimate, const ErrorCovariance& P, const LocalFrame& frame, const FrameNames& frames,
+          double max_wheel_interval_s, NavState& message);
+
+/// @param geometry names the wheels
+void fill(const VehicleSlip& slip, bool stationary, const WheelGeometry& geometry, const FrameNames& frames,
+          Slip& message);
+
+}  // namespace slipnav

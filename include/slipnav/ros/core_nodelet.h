@@ -1,0 +1,82 @@
+#pragma once
+/// What all nodelets of the package have in common: configuration, safe callbacks, diagnostics.
+
+#include <ros/ros.h>  // nodelet.h only declares NodeHandle
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <nodelet/nodelet.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <boost/function.hpp>
+#include <boost/shared_ptr.hpp>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "slipnav/config/config.h"
+
+namespace slipnav {
+
+/// Reads the configuration from the parameter tree `slipnav` in the nodelet's namespace (another name: private
+/// parameter `config`). With a wrong configuration the nodelet logs one line and stays idle.
+///
+/// With `extrinsics: tf`, messages wait until TF knows the sensors.
+///
+/// A nodelet subscribes first and advertises last: once its topics are known to the master, it misses nothing.
+class CoreNodelet : public nodelet::Nodelet {
+ public:
+  void onInit() final;
+
+ protected:
+  /// Builds what the configuration describes; called once, before any message is handled. May throw
+  /// std::invalid_argument.
+  virtual void begin(const Config& config) = 0;
+  virtual void subscribe(const Config& config) = 0;
+  virtual void advertise(const Config& config) = 0;
+  virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
+  /// Called regularly by the wall clock.
+  virtual void onTick() {}
+
+  /// Subscribes with a queue that holds minutes of recordings at high speed. No exception leaves the callback.
+  template <class Message, class Self>
+  void listen(const std::string& topic, void (Self::*handler)(const boost::shared_ptr<const Message>&)) {
+    using Pointer = boost::shared_ptr<const Message>;
+    const boost::function<void(const Pointer&)> callback = [this, handler](const Pointer& message) {
+      handle([this, handler, message] { (static_cast<Self*>(this)->*handler)(message); });
+    };
+    subscribers_.push_back(getNodeHandle().subscribe<Message>(topic, kQueueSize, callback, ros::VoidConstPtr(),
+                                                              ros::TransportHints().tcpNoDelay()));
+  }
+
+  template <class Message>
+  ros::Publisher publisher(const std::string& topic, bool latch = false) {
+    return getNodeHandle().advertise<Message>(topic, kQueueSize, latch);
+  }
+
+  /// Seconds of a clock that only runs forward, for patience.
+  static double now() { return ros::SteadyTime::now().toSec(); }
+
+ private:
+  static constexpr std::uint32_t kQueueSize = 10000;
+
+  void handle(const std::function<void()>& work);
+  void guarded(const std::function<void()>& work);
+  void tick();
+  void waitForExtrinsics();
+
+  std::mutex mutex_;  ///< callbacks may come while onInit() is not done
+  Config config_;
+  bool begun_ = false;
+  std::deque<std::function<void()>> waiting_;  ///< messages before begin()
+  std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
+  std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
+  std::unique_ptr<diagnostic_updater::Updater> updater_;
+  std::vector<ros::Subscriber> subscribers_;
+  ros::WallTimer tick_timer_;
+  ros::WallTimer diagnostics_timer_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,28 @@
+#pragma once
+/// Between the core's own structs and the messages that Ins, Filter and Initializer exchange. Nothing is lost.
+
+#include <slipnav/FilterCorrection.h>
+#include <slipnav/InertialState.h>
+#include <slipnav/InsInterval.h>
+#include <slipnav/StartState.h>
+
+#include "slipnav/filter/filter_data.h"
+#include "slipnav/ins/ins_engine.h"
+
+namespace slipnav {
+
+InertialState toMessage(const NavigationState& state);
+NavigationState fromMessage(const InertialState& message);
+
+InsInterval toMessage(const InsStep& step);
+/// @param epoch of the batch that the interval came in
+InsStep fromMessage(const InsInterval& message, std::uint32_t epoch);
+
+/// Fills everything but the session.
+void fill(const InitialState& initial, StartState& message);
+InitialState fromMessage(const StartState& message);
+
+/// For a message that corrects.
+Correction fromMessage(const FilterCorrection& message);
+
+}  // namespace slipnav

@@ -1,0 +1,60 @@
+#pragma once
+/// How long, by the wall clock, a silent sensor is waited for.
+///
+/// What is computed depends on stamps alone: a sensor that is silent for longer than `filter.max_wait_s` is not waited
+/// for. But in a recording played fast that is a few milliseconds, in which a message may simply still be on its way.
+/// Hence silence counts only once it has also lasted a moment of real time. This never changes a result, it only
+/// delays it while a sensor is silent.
+
+#include <deque>
+#include <functional>
+#include <optional>
+
+#include "slipnav/ins/ins_engine.h"
+
+namespace slipnav {
+
+/// [s] of the wall clock.
+inline constexpr double kPatience_s = 0.2;
+
+/// Newest stamp of one sensor that came at least the patience ago.
+class TrustedStamp {
+ public:
+  /// @param now_s any clock that only runs forward
+  void push(Nanoseconds stamp, double now_s);
+  /// 0 when nothing is old enough.
+  Nanoseconds at(double now_s);
+
+ private:
+  struct Arrival {
+    Nanoseconds stamp;
+    double time_s;
+  };
+  std::deque<Arrival> arrivals_;
+  Nanoseconds newest_ = 0;
+  Nanoseconds trusted_ = 0;
+};
+
+/// Holds mechanised steps back from the filter as long as wheel samples that belong before them may be on their way.
+class StepGate {
+ public:
+  /// @param max_wait_s filter.max_wait_s; nothing when no wheel samples are used
+  explicit StepGate(std::optional<double> max_wait_s) : max_wait_s_(max_wait_s) {}
+
+  void clear() { held_.clear(); }
+  void push(const InsStep& step, double now_s) { held_.push_back({step, now_s}); }
+
+  /// Lets steps go, in order.
+  /// @param newest_wheels stamp of the newest wheel sample, 0 before the first
+  void release(Nanoseconds newest_wheels, double now_s, const std::function<void(const InsStep&)>& sink);
+
+ private:
+  struct Held {
+    InsStep step;
+    double time_s;
+  };
+  std::optional<double> max_wait_s_;
+  std::deque<Held> held_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,183 @@
+/// slipnav/Filter: the error-state Kalman filter.
+///
+/// In: ins_steps, initial_state, joint_states or wheel_odometry. Out: correction, odometry, nav_state, slip, TF.
+
+#include <slipnav/FilterCorrection.h>
+#include <slipnav/InsSteps.h>
+#include <slipnav/StartState.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <boost/make_shared.hpp>
+#include <optional>
+#include <vector>
+
+#include "slipnav/filter/filter_engine.h"
+#include "slipnav/ros/conversions.h"
+#include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/estimate_publisher.h"
+#include "slipnav/ros/internal_messages.h"
+#include "slipnav/ros/internal_topics.h"
+#include "slipnav/ros/look_ahead.h"
+#include "slipnav/ros/patience.h"
+#include "slipnav/ros/wheel_input.h"
+#include "slipnav/ros/wheel_sessions.h"
+
+namespace slipnav {
+
+class FilterNodelet : public CoreNodelet {
+ private:
+  void begin(const Config& config) override {
+    engine_.emplace(Planet::byName(config.planet), config.navigation().filter);
+    wheel_input_.emplace(config);
+    estimates_ = std::make_unique<EstimatePublisher>(config);
+    const bool uses_wheels = !config.filter.updates.empty();
+    gate_ = StepGate(uses_wheels ? std::optional<double>(config.filter.max_wait_s) : std::nullopt);
+    look_ahead_ = LookAhead(config.filter.max_wait_s);
+    estimates_->advertise(getNodeHandle());
+  }
+
+  void subscribe(const Config& config) override {
+    listen<InsSteps>(kInsStepsTopic, &FilterNodelet::onSteps);
+    listen<StartState>(kInitialStateTopic, &FilterNodelet::onInitialState);
+    listen<sensor_msgs::JointState>(config.topics.joint_states, &FilterNodelet::onWheels<sensor_msgs::JointState>);
+    listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &FilterNodelet::onWheels<nav_msgs::Odometry>);
+  }
+
+  void advertise(const Config&) override { correction_publisher_ = publisher<FilterCorrection>(kCorrectionTopic); }
+
+  void onInitialState(const StartState::ConstPtr& message) {
+    if (started_ && message->session <= session_) {
+      return;
+    }
+    started_ = true;
+    session_ = message->session;
+    const InitialState initial = fromMessage(*message);
+    gate_.clear();
+    look_ahead_.restart(initial.nav.stamp);
+    engine_->reset();
+    for (const WheelMotion& wheels : wheel_sessions_.startNext()) {
+      useWheels(wheels);
+    }
+    engine_->initialise(initial);
+    estimates_->start(initial.origin, engine_->dynamics().gyroNoiseDensity());
+    const std::vector<InsSteps::ConstPtr> early = std::move(early_steps_);
+    early_steps_.clear();
+    for (const InsSteps::ConstPtr& steps : early) {
+      onSteps(steps);
+    }
+  }
+
+  void onSteps(const InsSteps::ConstPtr& message) {
+    if (!started_ || message->session > session_) {  // overtook its initial state
+      early_steps_.push_back(message);
+      return;
+    }
+    if (message->session != session_) {
+      return;
+    }
+    const double now_s = now();
+    for (const InsInterval& interval : message->steps) {
+      gate_.push(fromMessage(interval, message->epoch), now_s);
+    }
+    look_ahead_.addStep(toNanoseconds(message->steps.back().state.stamp));
+    proceed();
+  }
+
+  template <class Message>
+  void onWheels(const boost::shared_ptr<const Message>& message) {
+    ++wheel_messages_;
+    const std::optional<WheelMotion> motion = wheel_input_->take(*message);
+    if (!wheel_input_->problem().empty()) {
+      ++rejected_;
+      NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s left out: %s", message->header.stamp.toSec(),
+                            wheel_input_->problem().c_str());
+    }
+    if (motion) {
+      for (const WheelMotion& wheels : wheel_sessions_.push(*motion)) {
+        useWheels(wheels);
+      }
+      proceed();
+    }
+  }
+
+  void useWheels(const WheelMotion& wheels) {
+    if (engine_->push(wheels)) {
+      look_ahead_.addWheels(wheels.stamp);
+    } else {
+      ++rejected_;
+    }
+  }
+
+  void onTick() override { proceed(); }
+
+  /// Works off what has become certain, and tells the mechanisation.
+  void proceed() {
+    if (!started_) {
+      return;
+    }
+    gate_.release(wheel_sessions_.newestStamp(), now(), [this](const InsStep& step) { engine_->push(step); });
+    const std::optional<Correction> correction =
+        engine_->advance([this](const Estimate& estimate, const ErrorCovariance& P) {
+          look_ahead_.processed(estimate.nav.stamp);
+          estimates_->publish(estimate, P);
+        });
+    if (correction) {
+      gate_.clear();
+      look_ahead_.forgetSteps();
+    }
+    if (correction || look_ahead_.isStalled()) {
+      tell(correction);
+    }
+  }
+
+  void tell(const std::optional<Correction>& correction) {
+    const auto message = boost::make_shared<FilterCorrection>();
+    message->session = session_;
+    message->corrects = correction.has_value();
+    if (correction) {
+      message->epoch = correction->epoch;
+      message->sequence = correction->sequence;
+      message->state = toMessage(correction->state);
+    }
+    message->run_until = toRosTime(look_ahead_.runUntil());
+    look_ahead_.told(look_ahead_.runUntil());
+    correction_publisher_.publish(FilterCorrection::ConstPtr(message));
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
+    using diagnostic_msgs::DiagnosticStatus;
+    status.summary(started_ && wheel_messages_ > 0 ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   !started_             ? "waiting for the initial state"
+                   : wheel_messages_ > 0 ? "running"
+                                         : "no wheel samples");
+    status.add("wheel messages", wheel_messages_);
+    status.add("rejected wheel messages", rejected_);
+    if (!engine_) {
+      return;
+    }
+    for (int i = 0; i < kComponents; ++i) {
+      const ComponentStatus& component = engine_->status(static_cast<Component>(i));
+      const std::string name = componentName(static_cast<Component>(i));
+      status.add(name + " accepted", component.accepted);
+      status.add(name + " rejected", component.rejected);
+      status.addf(name + " last NIS", "%.2f", component.last_nis);
+    }
+  }
+
+  std::optional<FilterEngine> engine_;
+  std::optional<WheelInput> wheel_input_;
+  std::unique_ptr<EstimatePublisher> estimates_;
+  StepGate gate_{std::nullopt};
+  LookAhead look_ahead_{0.0};
+  WheelSessions wheel_sessions_;
+  std::vector<InsSteps::ConstPtr> early_steps_;
+  bool started_ = false;
+  std::uint32_t session_ = 0;
+  std::uint64_t wheel_messages_ = 0;
+  std::uint64_t rejected_ = 0;
+  ros::Publisher correction_publisher_;
+};
+
+}  // namespace slipnav
+
+PLUGINLIB_EXPORT_CLASS(slipnav::FilterNodelet, nodelet::Nodelet)

@@ -1,0 +1,143 @@
+/// slipnav/Ins: mechanises IMU samples.
+///
+/// In: imu/data, initial_state, correction. Out: ins_steps.
+
+#include <sensor_msgs/Imu.h>
+#include <slipnav/FilterCorrection.h>
+#include <slipnav/InsSteps.h>
+#include <slipnav/StartState.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <boost/make_shared.hpp>
+#include <optional>
+
+#include "slipnav/ins/ins_engine.h"
+#include "slipnav/ros/conversions.h"
+#include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/internal_messages.h"
+#include "slipnav/ros/internal_topics.h"
+
+namespace slipnav {
+
+class InsNodelet : public CoreNodelet {
+ private:
+  void begin(const Config& config) override {
+    mount_.emplace(config.imu.mount);
+    engine_.emplace(Planet::byName(config.planet), config.imu.input);
+  }
+
+  void subscribe(const Config& config) override {
+    listen<sensor_msgs::Imu>(config.topics.imu, &InsNodelet::onImu);
+    listen<StartState>(kInitialStateTopic, &InsNodelet::onInitialState);
+    listen<FilterCorrection>(kCorrectionTopic, &InsNodelet::onCorrection);
+  }
+
+  void advertise(const Config&) override { steps_publisher_ = publisher<InsSteps>(kInsStepsTopic); }
+
+  void onImu(const sensor_msgs::Imu::ConstPtr& message) {
+    const ImuSample sample = toImuSample(*message, *mount_);
+    ImuVerdict verdict = engine_->push(sample);
+    if (verdict == ImuVerdict::kTimeWentBack) {
+      NODELET_WARN("the clock of %s went back: starting anew", message->header.frame_id.c_str());
+      engine_->reset();
+      ++session_;
+      verdict = engine_->push(sample);
+    }
+    ++samples_;
+    gaps_ += verdict == ImuVerdict::kAfterGap ? 1 : 0;
+    if (!isAccepted(verdict)) {
+      ++rejected_;
+      NODELET_WARN_THROTTLE(1.0, "IMU sample at %.3f s left out: %s", message->header.stamp.toSec(),
+                            complaintOf(verdict));
+    }
+    startIfDue();
+    mechanise();
+  }
+
+  void onInitialState(const StartState::ConstPtr& message) {
+    start_ = message;
+    startIfDue();
+    mechanise();
+  }
+
+  /// An initial state belongs to the session that counts as many restarts of the clock, and is used once the samples
+  /// have reached it.
+  void startIfDue() {
+    if (!start_ || start_->session != session_ || engine_->newestStamp() < toNanoseconds(start_->state.stamp)) {
+      return;
+    }
+    engine_->initialise(fromMessage(start_->state));
+    last_step_ = toNanoseconds(start_->state.stamp);
+    run_until_ = last_step_ + 1;
+    start_.reset();
+  }
+
+  void onCorrection(const FilterCorrection::ConstPtr& message) {
+    if (message->session != session_ || !engine_->isInitialised()) {
+      return;
+    }
+    if (message->corrects) {
+      if (!engine_->correct(fromMessage(*message))) {
+        NODELET_ERROR("correction for step %lu, which is not there any more",
+                      static_cast<unsigned long>(message->sequence));
+        return;
+      }
+      last_step_ = toNanoseconds(message->state.stamp);
+    }
+    run_until_ = toNanoseconds(message->run_until);
+    mechanise();
+  }
+
+  /// Mechanises what the filter has use for; the rest waits in the engine, so that a correction costs little.
+  void mechanise() {
+    const boost::shared_ptr<InsSteps> batch = boost::make_shared<InsSteps>();
+    while (last_step_ < run_until_) {
+      const std::optional<InsStep> step = engine_->step();
+      if (!step) {
+        break;
+      }
+      last_step_ = step->state.stamp;
+      batch->epoch = step->epoch;
+      batch->steps.push_back(toMessage(*step));
+    }
+    if (!batch->steps.empty()) {
+      batch->session = session_;
+      steps_publisher_.publish(boost::shared_ptr<const InsSteps>(batch));
+    }
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
+    using diagnostic_msgs::DiagnosticStatus;
+    const double span_s = engine_ ? toSeconds(engine_->newestStamp() - diagnosed_stamp_) : 0.0;
+    const double rate_hz = span_s > 0.0 ? static_cast<double>(samples_ - diagnosed_samples_) / span_s : 0.0;
+    const bool running = engine_ && engine_->isInitialised();
+    status.summary(running ? DiagnosticStatus::OK : DiagnosticStatus::WARN, running ? "mechanising"
+                                                                            : samples_ > 0
+                                                                                ? "waiting for the initial state"
+                                                                                : "no IMU samples");
+    status.add("IMU samples", samples_);
+    status.addf("IMU rate [Hz]", "%.1f", rate_hz);
+    status.add("gaps", gaps_);
+    status.add("rejected samples", rejected_);
+    status.add("restarts", session_);
+    diagnosed_samples_ = samples_;
+    diagnosed_stamp_ = engine_ ? engine_->newestStamp() : 0;
+  }
+
+  std::optional<ImuMount> mount_;
+  std::optional<InsEngine> engine_;
+  StartState::ConstPtr start_;  ///< not yet used
+  std::uint32_t session_ = 0;   ///< restarts of the IMU's clock
+  Nanoseconds last_step_ = 0;   ///< end of the newest step
+  Nanoseconds run_until_ = 0;   ///< what the filter has use for
+  std::uint64_t samples_ = 0;
+  std::uint64_t gaps_ = 0;
+  std::uint64_t rejected_ = 0;
+  std::uint64_t diagnosed_samples_ = 0;
+  Nanoseconds diagnosed_stamp_ = 0;
+  ros::Publisher steps_publisher_;
+};
+
+}  // namespace slipnav
+
+PLUGINLIB_EXPORT_CLASS(slipnav::InsNodelet, nodelet::Nodelet)

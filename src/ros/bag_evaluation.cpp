@@ -1,0 +1,85 @@
+#include "slipnav/ros/bag_evaluation.h"
+
+#include <chrono>
+#include <ctime>
+
+#include "slipnav/eval/offline_run.h"
+#include "slipnav/eval/rtklib_pos.h"
+#include "slipnav/navigator/sample_merger.h"
+#include "slipnav/ros/bag_reader.h"
+
+namespace slipnav {
+namespace {
+
+bool isRtklibFile(const std::string& truth) {
+  const std::string ending = ".pos";
+  return truth.size() > ending.size() && truth.compare(truth.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/// Processor and wall time since it was made.
+class Stopwatch {
+ public:
+  double cpu() const { return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC; }
+  double wall() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count(); }
+
+ private:
+  std::clock_t cpu_ = std::clock();
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+};
+
+/// Feeds a recording to a run in the order of the stamps.
+void feed(const BagReader& reader, bool with_truth, OfflineRun& run, std::map<std::string, int>& problems) {
+  SampleMerger merger(reader.config().filter.max_wait_s);
+  const SampleMerger::Sink pass = [&run](const Sample& sample) {
+    std::visit([&run](const auto& s) { run.push(s); }, sample);
+  };
+  const auto take = [&merger, &pass](const Sample& sample) {
+    merger.push(sample);
+    merger.advance(pass);
+  };
+  BagSink sink;
+  sink.imu = take;
+  sink.wheels = take;
+  sink.fix = [&take](const GnssFix& fix) { take(toPositionFix(fix)); };
+  sink.truth_start = [&run](const NavigationState& state, bool has_attitude) { run.setTruth(state, has_attitude); };
+  sink.truth_fix = [&run, with_truth](const GnssFix& fix) {
+    if (with_truth) {
+      run.addTruthFix(fix);
+    }
+  };
+  sink.truth_pose = [&run, with_truth](const TruthSample& pose) {
+    if (with_truth) {
+      run.addTruthPose(pose);
+    }
+  };
+  sink.problem = [&problems](const std::string& problem) { ++problems[problem]; };
+  reader.read(sink);
+  merger.flush(pass);
+}
+
+}  // namespace
+
+BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth) {
+  const Stopwatch stopwatch;
+  const bool truth_from_file = isRtklibFile(truth);
+  const BagReader reader(path, config, truth_from_file ? "" : truth);
+  OfflineRun run(reader.config(), true);
+  if (truth_from_file) {
+    for (const RtklibSolution& solution : readRtklibPos(truth)) {
+      run.addTruthFix(solution.fix);
+    }
+  }
+  BagEvaluation evaluation;
+  feed(reader, !truth_from_file, run, evaluation.problems);
+  evaluation.report = run.finish(config.truth.alignment(truth_from_file || reader.truthIsGeodetic()));
+  evaluation.report.metrics.cpu_s = stopwatch.cpu();
+  evaluation.report.metrics.realtime_factor = reader.duration() / stopwatch.wall();
+  return evaluation;
+}
+
+std::string runName(const std::string& path) {
+  const std::string file = path.substr(path.find_last_of('/') + 1);
+  return file.substr(0, file.rfind(".bag"));
+}
+
+}  // namespace slipnav

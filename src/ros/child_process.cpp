@@ -1,0 +1,74 @@
+#include "slipnav/ros/child_process.h"
+
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace slipnav {
+namespace {
+
+int exitStatus(int wait_status) {
+  return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command) : pid_(0) {
+  std::vector<std::string> words = command;
+  std::vector<char*> arguments;
+  for (std::string& word : words) {
+    arguments.push_back(word.data());
+  }
+  arguments.push_back(nullptr);
+  const int error = posix_spawnp(&pid_, arguments[0], nullptr, nullptr, arguments.data(), environ);
+  if (error != 0) {
+    throw std::runtime_error(command.front() + ": cannot be started: " + std::strerror(error));
+  }
+}
+
+ChildProcess::~ChildProcess() {
+  if (!poll()) {
+    kill(pid_, SIGINT);
+    wait();
+  }
+}
+
+std::optional<int> ChildProcess::poll() {
+  int wait_status = 0;
+  if (!status_ && waitpid(pid_, &wait_status, WNOHANG) == pid_) {
+    status_ = exitStatus(wait_status);
+  }
+  return status_;
+}
+
+int ChildProcess::wait() {
+  int wait_status = 0;
+  while (!status_) {
+    if (waitpid(pid_, &wait_status, 0) == pid_) {
+      status_ = exitStatus(wait_status);
+    } else if (errno != EINTR) {
+      throw std::runtime_error(std::string("waiting for a child process: ") + std::strerror(errno));
+    }
+  }
+  return *status_;
+}
+
+std::string besideThisExecutable(const std::string& name) {
+  std::array<char, 4096> path = {};
+  const ssize_t length = readlink("/proc/self/exe", path.data(), path.size() - 1);
+  if (length <= 0) {
+    throw std::runtime_error("the path of this executable cannot be found out");
+  }
+  const std::string self(path.data(), static_cast<std::size_t>(length));
+  return self.substr(0, self.find_last_of('/') + 1) + name;
+}
+
+}  // namespace slipnav

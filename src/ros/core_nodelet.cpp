@@ -1,0 +1,92 @@
+#include "slipnav/ros/core_nodelet.h"
+
+#include "slipnav/ros/extrinsics.h"
+#include "slipnav/ros/parameters.h"
+
+namespace slipnav {
+namespace {
+
+constexpr double kTickInterval_s = 0.05;
+constexpr double kDiagnosticsInterval_s = 1.0;
+constexpr double kReminderInterval_s = 5.0;
+constexpr std::size_t kMaxWaiting = 200000;
+
+}  // namespace
+
+void CoreNodelet::onInit() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  try {
+    const std::string tree = getPrivateNodeHandle().param<std::string>("config", "slipnav");
+    config_ = configFromParameters(getNodeHandle(), tree);
+    if (config_.frames.extrinsicsFromTf()) {
+      tf_buffer_ = std::make_unique<tf2_ros::Buffer>();
+      tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
+    } else {
+      begin(config_);
+      begun_ = true;
+    }
+    subscribe(config_);
+    updater_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(), getPrivateNodeHandle(), getName());
+    updater_->setHardwareID("none");
+    updater_->add(getName(), [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
+    tick_timer_ = getNodeHandle().createWallTimer(ros::WallDuration(kTickInterval_s),
+                                                  [this](const ros::WallTimerEvent&) { tick(); });
+    diagnostics_timer_ = getNodeHandle().createWallTimer(
+        ros::WallDuration(kDiagnosticsInterval_s),
+        [this](const ros::WallTimerEvent&) { guarded([this] { updater_->force_update(); }); });
+    advertise(config_);
+  } catch (const std::exception& error) {
+    subscribers_.clear();
+    NODELET_ERROR("%s stays idle: %s", getName().c_str(), error.what());
+  }
+}
+
+void CoreNodelet::guarded(const std::function<void()>& work) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  try {
+    work();
+  } catch (const std::exception& error) {
+    NODELET_ERROR_THROTTLE(1.0, "%s: %s", getName().c_str(), error.what());
+  }
+}
+
+void CoreNodelet::handle(const std::function<void()>& work) {
+  guarded([this, &work] {
+    if (begun_) {
+      work();
+      return;
+    }
+    waiting_.push_back(work);
+    if (waiting_.size() > kMaxWaiting) {
+      waiting_.pop_front();
+    }
+  });
+}
+
+void CoreNodelet::tick() {
+  guarded([this] {
+    if (!begun_) {
+      waitForExtrinsics();
+    }
+    if (begun_) {
+      onTick();
+    }
+  });
+}
+
+void CoreNodelet::waitForExtrinsics() {
+  const std::string missing = takeExtrinsics(*tf_buffer_, config_.initialization.source == "gnss", config_);
+  if (!missing.empty()) {
+    NODELET_INFO_THROTTLE(kReminderInterval_s, "%s waits: %s", getName().c_str(), missing.c_str());
+    return;
+  }
+  tf_listener_.reset();
+  begin(config_);
+  begun_ = true;
+  while (!waiting_.empty()) {
+    waiting_.front()();
+    waiting_.pop_front();
+  }
+}
+
+}  // namespace slipnav

@@ -1,0 +1,46 @@
+#include "slipnav/ros/wheel_input.h"
+
+#include <cmath>
+
+#include "slipnav/ros/conversions.h"
+
+namespace slipnav {
+
+WheelInput::WheelInput(const Config& config)
+    : geometry_(config.wheelGeometry()),
+      decoder_(config.wheels),
+      source_(config.wheel.source),
+      joint_topic_(config.topics.joint_states),
+      odometry_topic_(config.topics.wheel_odometry) {}
+
+std::optional<WheelMotion> WheelInput::take(const sensor_msgs::JointState& message) {
+  problem_.clear();
+  if (!wantsJointStates()) {
+    return std::nullopt;
+  }
+  const std::optional<WheelSample> sample =
+      decoder_.decode({toNanoseconds(message.header.stamp), message.name, message.position, message.velocity});
+  if (!decoder_.problem().empty()) {
+    problem_ = joint_topic_ + " " + decoder_.problem();
+  }
+  if (!sample) {
+    return std::nullopt;
+  }
+  joints_heard_ = true;
+  return toWheelMotion(geometry_, *sample);
+}
+
+std::optional<WheelMotion> WheelInput::take(const nav_msgs::Odometry& message) {
+  problem_.clear();
+  if (!wantsOdometry() || joints_heard_) {
+    return std::nullopt;
+  }
+  const double forward_mps = message.twist.twist.linear.x;
+  if (!std::isfinite(forward_mps)) {
+    problem_ = odometry_topic_ + " has a forward speed that is not a finite number";
+    return std::nullopt;
+  }
+  return toWheelMotion(SpeedSample{toNanoseconds(message.header.stamp), forward_mps});
+}
+
+}  // namespace slipnav

@@ -1,0 +1,70 @@
+/// Runs the pipeline on a recording and measures it against its truth.
+
+#include <iostream>
+#include <stdexcept>
+
+#include "slipnav/config/config_options.h"
+#include "slipnav/eval/report.h"
+#include "slipnav/ros/bag_evaluation.h"
+#include "slipnav/ros/child_process.h"
+
+namespace {
+
+using slipnav::Arguments;
+using slipnav::CommandLine;
+
+CommandLine commandLine() {
+  CommandLine command_line("evaluate", "Runs the pipeline on a recording, without a ROS master, and measures it.");
+  command_line.positional("BAG", "recording of ROS 1")
+      .option("truth", "TOPIC|FILE.pos",
+              "truth: a topic of the recording or an RTKLIB solution; default: the first of "
+              "truth/fix, truth/odometry, truth/pose that it has")
+      .option("out", "DIR", "where metrics.json, timeline.csv, forecasts.csv, estimate.tum, truth.tum go")
+      .flag("report", "plots into the same place");
+  slipnav::declareConfigOptions(command_line);
+  return command_line;
+}
+
+void checkArguments(const Arguments& arguments) {
+  if (arguments.given("report") && !arguments.given("out")) {
+    throw slipnav::UsageError("--report needs --out");
+  }
+}
+
+void plot(const std::string& directory) {
+  slipnav::ChildProcess plotter({slipnav::besideThisExecutable("plot_report.py"), directory});
+  if (plotter.wait() != 0) {
+    throw std::runtime_error("the plots could not be made");
+  }
+}
+
+int run(int argc, char** argv) {
+  const CommandLine command_line = commandLine();
+  const Arguments arguments = command_line.parse(argc, argv);
+  if (arguments.helpRequested()) {
+    std::cout << command_line.help();
+    return 0;
+  }
+  checkArguments(arguments);
+  const std::string& bag = arguments.text("BAG");
+  const slipnav::Config config = slipnav::configFromOptions(arguments);
+  const slipnav::BagEvaluation evaluation = slipnav::evaluateBag(bag, config, arguments.text("truth"));
+  for (const auto& [problem, count] : evaluation.problems) {
+    std::cerr << "evaluate: " << problem << " (" << count << " messages left out)\n";
+  }
+  if (arguments.given("out")) {
+    slipnav::writeRunReport(arguments.text("out"), evaluation.report);
+  }
+  if (arguments.given("report")) {
+    plot(arguments.text("out"));
+  }
+  std::cout << slipnav::tableHeader()
+            << slipnav::tableRow(slipnav::runName(bag), std::nullopt, evaluation.report.metrics);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return slipnav::runGuarded("evaluate", std::cerr, [argc, argv] { return run(argc, argv); });
+}
