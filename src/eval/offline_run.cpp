@@ -33,16 +33,25 @@ OfflineRun::OfflineRun(const Config& config, bool with_baselines)
 }
 
 void OfflineRun::push(const ImuSample& sample) {
-  wheel_only_.addImu(sample);
   pipeline_.push(sample);
+  if (wheel_only_) {
+    wheel_only_->addImu(sample);
+  } else {
+    earlier_imu_.push_back(sample);
+  }
   if (without_zupt_) {
     without_zupt_->push(sample);
   }
 }
 
 void OfflineRun::push(const WheelMotion& wheels) {
-  wheel_only_.addSpeed({wheels.stamp, wheels.motion.forward_mps});
   pipeline_.push(wheels);
+  const SpeedSample speed{wheels.stamp, wheels.motion.forward_mps};
+  if (wheel_only_) {
+    wheel_only_->addSpeed(speed);
+  } else {
+    earlier_speeds_.push_back(speed);
+  }
   if (without_zupt_) {
     without_zupt_->push(wheels);
   }
@@ -74,6 +83,7 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
     output_.emplace(planet_, pipeline_.initial()->origin, -config_.imu.mount.position_b(),
                     pipeline_.filter().dynamics().gyroNoiseDensity());
     estimates_.clear();
+    startWheelOnly(output_->make(estimate, P));
   }
   if (estimate.has_wheels) {
     slip_ = slipOf(estimate);
@@ -81,12 +91,22 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
   const Output out = output_->make(estimate, P);
   estimates_.push_back({out.stamp, out.position_enu_m, out.pose_covariance.topLeftCorner<3, 3>(), out.q_flu_to_enu,
                         out.velocity_flu_mps.x(), slip_, estimate.stationary});
-  if (!wheel_only_started_) {
-    wheel_only_started_ = true;
-    const Vector3 forward_enu = out.q_flu_to_enu * Vector3::UnitX();
-    wheel_only_.start(
-        {out.stamp, out.position_enu_m.x(), out.position_enu_m.y(), std::atan2(forward_enu.x(), forward_enu.y())});
+}
+
+/// The samples that came before the start was known still count: it may lie before them.
+void OfflineRun::startWheelOnly(const Output& out) {
+  const Vector3 forward_enu = out.q_flu_to_enu * Vector3::UnitX();
+  wheel_only_.emplace();
+  wheel_only_->start(
+      {out.stamp, out.position_enu_m.x(), out.position_enu_m.y(), std::atan2(forward_enu.x(), forward_enu.y())});
+  for (const ImuSample& sample : earlier_imu_) {
+    wheel_only_->addImu(sample);
   }
+  for (const SpeedSample& speed : earlier_speeds_) {
+    wheel_only_->addSpeed(speed);
+  }
+  earlier_imu_.clear();
+  earlier_speeds_.clear();
 }
 
 TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment) const {
@@ -115,7 +135,7 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
   MetricsInput input;
   input.estimates = estimates_;
   input.truth = report.truth;
-  input.wheel_only = wheel_only_.track();
+  input.wheel_only = wheel_only_->track();
   const SampleCounts& counts = pipeline_.counts();
   input.counters.imu_samples = static_cast<std::int64_t>(counts.imu);
   input.counters.wheel_samples = static_cast<std::int64_t>(counts.wheels);

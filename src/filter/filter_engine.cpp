@@ -214,9 +214,9 @@ MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const
     }
   }
   if (use_nonholonomic_) {
-    const double side_slip_rad = slipAngle(motion.v_eb_b, vehicle_);
-    if (std::abs(side_slip_rad) < degToRad(setup_.nonholonomic.max_side_slip_deg)) {
-      set.add(kLateral, lateralMeasurement(setup_.nonholonomic, motion, state_, vehicle_, lever_b));
+    const Measurement lateral = lateralMeasurement(setup_.nonholonomic, motion, state_, vehicle_, lever_b);
+    if (!isExcessiveSideSlip(setup_.nonholonomic, motion, vehicle_, lateral.variance(0))) {
+      set.add(kLateral, lateral);
     }
     set.add(kVertical, verticalMeasurement(setup_.nonholonomic, motion, state_, vehicle_, lever_b));
   }

@@ -5,6 +5,9 @@
 namespace slipnav {
 namespace {
 
+/// Standard deviations beyond which a lateral speed is real.
+constexpr double kSignificant = 3.0;
+
 double square(double x) { return x * x; }
 
 }  // namespace
@@ -34,6 +37,12 @@ Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotio
   return m;
 }
 
+bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& motion, const VehicleState& vehicle,
+                         double lateral_variance) {
+  return std::abs(slipAngle(motion.v_eb_b, vehicle)) > degToRad(params.max_side_slip_deg) &&
+         std::abs(motion.v_eb_b.y()) > kSignificant * std::sqrt(lateral_variance);
+}
+
 Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion,
                                 const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b) {
   const double v_x = motion.v_eb_b.x();
@@ -48,7 +57,8 @@ Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMoti
 }
 
 double slipAngle(const Vector3& v_eb_b, const VehicleState& vehicle) {
-  return std::atan2(v_eb_b.y() + vehicle.mount_yaw_rad * v_eb_b.x(), v_eb_b.x());
+  const double direction = v_eb_b.x() < 0.0 ? -1.0 : 1.0;
+  return std::atan2(direction * (v_eb_b.y() + vehicle.mount_yaw_rad * v_eb_b.x()), direction * v_eb_b.x());
 }
 
 }  // namespace slipnav

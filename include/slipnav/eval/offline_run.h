@@ -36,6 +36,7 @@ class OfflineRun {
 
  private:
   void record(const Estimate& estimate, const ErrorCovariance& P);
+  void startWheelOnly(const Output& out);
   TruthTrack truthTrack(const TruthAlignment& alignment) const;
   std::optional<double> slipOf(const Estimate& estimate) const;
 
@@ -45,8 +46,9 @@ class OfflineRun {
   std::optional<OutputMaker> output_;
   EstimateTrack estimates_;
   std::optional<double> slip_;
-  PlanarDeadReckoning wheel_only_;
-  bool wheel_only_started_ = false;
+  std::optional<PlanarDeadReckoning> wheel_only_;
+  std::vector<ImuSample> earlier_imu_;       ///< what came before the start was known
+  std::vector<SpeedSample> earlier_speeds_;  ///< likewise
   std::unique_ptr<OfflineRun> without_zupt_;
   std::vector<GnssFix> truth_fixes_;
   std::vector<TruthSample> truth_poses_;

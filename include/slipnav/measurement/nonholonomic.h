@@ -21,11 +21,17 @@ struct NonholonomicParams {
 Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavigationState& state,
                                const VehicleState& vehicle, const Vector3& lever_b);
 
+/// Whether the rover slides sideways so much that the lateral constraint says nothing: the slip angle is beyond its limit
+/// and the lateral speed is more than the constraint's own noise can explain.
+bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& motion, const VehicleState& vehicle,
+                         double lateral_variance);
+
 /// Vertical speed of the reference point: v_z − θ_m v_x = 0.
 Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion,
                                 const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b);
 
-/// Slip angle β = atan2(v_y, v_x) of the reference point in vehicle axes, forward-right-down [rad].
+/// Slip angle β = atan2(v_y, v_x) of the reference point in vehicle axes, forward-right-down [rad]. In reverse it is
+/// counted from the backward axis, so that straight driving is zero either way.
 double slipAngle(const Vector3& v_eb_b, const VehicleState& vehicle);
 
 }  // namespace slipnav

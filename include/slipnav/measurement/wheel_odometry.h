@@ -20,7 +20,8 @@ struct WheelOdometryParams {
   void visit(ParameterVisitor& v);
 };
 
-/// Forward speed: u (1 − κ − s_slow − s_fast) = v_x, with u the mean circumferential speed of the wheels.
+/// Forward speed: u = v_x / (1 − κ − s_slow − s_fast), with u the mean circumferential speed of the wheels. Slip acts on
+/// the predicted speed, not on the measured one: noise of u would otherwise look like slip (errors in variables).
 /// @param motion means over the odometry interval; @param lever_b IMU to reference point
 Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps, const BodyMotion& motion,
                                     const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b);
