@@ -24,6 +24,9 @@ constexpr double toSeconds(Nanoseconds t) { return static_cast<double>(t) * 1e-9
 inline Nanoseconds fromSeconds(double t_s) { return static_cast<Nanoseconds>(std::llround(t_s * 1e9)); }
 
 constexpr double degToRad(double angle_deg) { return angle_deg * (kPi / 180.0); }
+/// Data sheets count accelerations in standard gravity, on any planet.
+inline constexpr double kMicroG = 9.80665e-6;  // m/s²
+constexpr double degPerHourToRadps(double rate_deg_per_h) { return degToRad(rate_deg_per_h) / 3600.0; }
 constexpr double radToDeg(double angle_rad) { return angle_rad * (180.0 / kPi); }
 
 }  // namespace slipnav

@@ -8,7 +8,6 @@ namespace slipnav {
 namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
-constexpr double kMicroG = 9.80665e-6;  // data sheets count in standard gravity, on any planet
 
 double square(double x) { return x * x; }
 
@@ -83,7 +82,7 @@ ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, co
       spectral_density_(ErrorVector::Zero()),
       decay_rate_(ErrorVector::Zero()) {
   prior_variance_.segment<3>(kAccelBias).setConstant(square(imu.accel_bias_std_ug * kMicroG));
-  prior_variance_.segment<3>(kGyroBias).setConstant(square(degToRad(imu.gyro_bias_std_deg_per_h) / kSecondsPerHour));
+  prior_variance_.segment<3>(kGyroBias).setConstant(square(degPerHourToRadps(imu.gyro_bias_std_deg_per_h)));
   prior_variance_(kWheelScale) = square(vehicle.wheel_scale_std);
   prior_variance_(kMountPitch) = square(degToRad(vehicle.mount_pitch_std_deg));
   prior_variance_(kMountYaw) = square(degToRad(vehicle.mount_yaw_std_deg));
@@ -95,7 +94,7 @@ ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, co
   spectral_density_.segment<3>(kAccelBias)
       .setConstant(square(imu.accel_bias_walk_ug_per_sqrt_h * kMicroG) / kSecondsPerHour);
   spectral_density_.segment<3>(kGyroBias).setConstant(
-      square(degToRad(imu.gyro_bias_walk_deg_per_h_per_sqrt_h) / kSecondsPerHour) / kSecondsPerHour);
+      square(degPerHourToRadps(imu.gyro_bias_walk_deg_per_h_per_sqrt_h)) / kSecondsPerHour);
 
   // A Gauss–Markov state of variance σ² and time constant τ is driven by white noise of density 2σ²/τ.
   const auto gaussMarkov = [this](int index, double std, double time_s) {

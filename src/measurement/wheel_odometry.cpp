@@ -15,6 +15,8 @@ double square(double x) { return x * x; }
 void WheelOdometryParams::visit(ParameterVisitor& v) {
   v.choice("source", source, {"auto", "joint_states", "wheel_odometry"},
            "which message the wheels' speeds are taken from; auto: joint_states from its first usable message on");
+  v.number("stamp_delay_s", stamp_delay_s, {-1.0, 1.0},
+           "how much later than the end of the interval, which its speeds are the mean of, a sample is stamped [s]");
   v.number("speed_std_mps", speed_std_mps, {1e-6, 10.0}, "1σ of the wheel speed whatever the speed [m/s]");
   v.number("slip_noise_std", slip_noise_std, {0.0, 1.0}, "1σ of slip that is new in every sample, a ratio of speed");
   v.number("yaw_rate_std_deg_per_s", yaw_rate_std_deg_per_s, {1e-6, 1e3}, "1σ of the heading rate from wheels [°/s]");

@@ -21,6 +21,10 @@ constexpr double kTruthVelocityStd_mps = 1e-3;
 
 double square(double x) { return x * x; }
 
+Vector3 inBodyAxes(const std::vector<double>& values, double unit) {
+  return unit * Vector3(values.at(0), values.at(1), values.at(2));
+}
+
 ErrorCovariance priorCovariance(const ErrorVector& prior_variance) { return prior_variance.asDiagonal(); }
 
 }  // namespace
@@ -44,6 +48,10 @@ void InitializationParams::visit(ParameterVisitor& v) {
   v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0}, "1σ of roll and pitch levelled on the move [°]");
   v.number("moving_speed_std_mps", moving_speed_std_mps, {1e-3, 10.0},
            "1σ of the velocity when starting on the move [m/s]");
+  v.numbers("gyro_bias_deg_per_h", gyro_bias_deg_per_h, {-1e6, 1e6},
+            "mean of the gyro bias at switch-on, body axes forward, right, down [°/h]");
+  v.numbers("accel_bias_ug", accel_bias_ug, {-1e6, 1e6},
+            "mean of the accelerometer bias at switch-on, body axes forward, right, down [µg]");
 }
 
 Initializer::Initializer(const Planet& planet, const InitializationParams& params, const ImuInputParams& imu,
@@ -266,7 +274,8 @@ std::optional<PositionFix> Initializer::endFix(const PositionFix& start) const {
 }
 
 double Initializer::headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const {
-  const double bias_z = at_rest ? mean(rest_.begin, rest_.end).omega_ib_b.z() : 0.0;
+  const double bias_z = at_rest ? mean(rest_.begin, rest_.end).omega_ib_b.z()
+                                : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
   double heading = 0.0;
   Vector2 track = Vector2::Zero();
   for (std::size_t i = 1; i < imu_.size() && imu_[i].stamp <= end.stamp; ++i) {
@@ -305,16 +314,22 @@ double Initializer::speedAt(Nanoseconds stamp) const {
 InitialState Initializer::levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const {
   InitialState initial;
   initial.nav.stamp = begin;
+  initial.nav.accel_bias_b = inBodyAxes(params_.accel_bias_ug, kMicroG);
+  initial.nav.gyro_bias_b = inBodyAxes(params_.gyro_bias_deg_per_h, degPerHourToRadps(1.0));
   initial.P = priorCovariance(prior_variance_);
   Vector2 roll_pitch;
   if (at_rest) {
-    roll_pitch = levelAtRest(mean(begin, end).f_ib_b);
+    roll_pitch = levelAtRest(mean(begin, end).f_ib_b - initial.nav.accel_bias_b);
     initial.P.diagonal().segment<3>(kAttitude).setConstant(square(kLevelStd_rad));
     initial.P.diagonal().segment<3>(kVelocity).setConstant(square(kRestVelocityStd_mps));
   } else {
     std::vector<ImuSample> window;
     std::copy_if(imu_.begin(), imu_.end(), std::back_inserter(window),
                  [begin, end](const ImuSample& s) { return s.stamp >= begin && s.stamp <= end; });
+    for (ImuSample& sample : window) {
+      sample.f_ib_b -= initial.nav.accel_bias_b;
+      sample.omega_ib_b -= initial.nav.gyro_bias_b;
+    }
     roll_pitch = levelAtRest(reactionToGravityOnTheMove(window, speedAt(begin), speedAt(end)));
     initial.P.diagonal().segment<3>(kAttitude).setConstant(square(degToRad(params_.moving_level_std_deg)));
     initial.P.diagonal().segment<3>(kVelocity).setConstant(square(params_.moving_speed_std_mps));

@@ -34,6 +34,8 @@ struct InitializationParams {
   double levelling_window_s = 10.0;
   double moving_level_std_deg = 1.0;
   double moving_speed_std_mps = 0.1;
+  std::vector<double> gyro_bias_deg_per_h = {0.0, 0.0, 0.0};
+  std::vector<double> accel_bias_ug = {0.0, 0.0, 0.0};
   void visit(ParameterVisitor& v);
 };
 
