@@ -57,4 +57,5 @@ catkin_package(
     std_srvs
     tf2_ros
     visualization_msgs
+  DEPENDS EIGEN3 GeographicLib YAML_CPP
 )

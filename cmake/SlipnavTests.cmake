@@ -11,7 +11,9 @@ function(slipnav_configure_test target)
   slipnav_configure_target(${target})
   target_include_directories(${target} PRIVATE "${test_folder}")
   target_compile_definitions(${target} PRIVATE SLIPNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${target} ${ARGN})
+  # The fits are compared with NLopt's own.
+  target_include_directories(${target} SYSTEM PRIVATE ${NLOPT_INCLUDE_DIR})
+  target_link_libraries(${target} ${ARGN} ${NLOPT_LIBRARY})
 endfunction()
 
 # One gtest executable of the core library.
