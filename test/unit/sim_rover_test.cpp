@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <vector>
 
 #include "slipnav/math/rotation.h"
@@ -20,7 +21,10 @@ SimulatorParams drive(const std::string& terrain, int seed, double distance_m) {
   return params;
 }
 
+double secondsIn(const TruthState& truth) { return toSeconds(truth.stamp) - SimulatorParams().start_time_s; }
+
 /// Calls `look(truth, measurements)` after each interval of a scripted drive; `hold(truth)` says when to stop.
+/// Throws when the drive does not come to its end.
 template <class Hold, class Look>
 void run(const SimulatorParams& params, const Hold& hold, const Look& look) {
   RoverSimulator rover(params, Planet::byName("earth"));
@@ -29,12 +33,13 @@ void run(const SimulatorParams& params, const Hold& hold, const Look& look) {
     const Command command = driver.command(rover.truth(), hold(rover.truth()));
     const Measurements measurements = rover.step(command);
     look(rover.truth(), measurements);
+    if (secondsIn(rover.truth()) > 1000.0) {
+      throw std::runtime_error("the drive does not end");
+    }
   }
 }
 
 const auto kNeverHold = [](const TruthState&) { return false; };
-
-double secondsIn(const TruthState& truth) { return toSeconds(truth.stamp) - SimulatorParams().start_time_s; }
 
 /// Stands for 5 s in every 20 s after the first minute.
 bool holdPeriodically(const TruthState& truth) {
