@@ -1,0 +1,110 @@
+#include "slipnav/ins/imu_screen.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+namespace slipnav::test {
+namespace {
+
+constexpr Nanoseconds kStart = 1'600'000'000'000'000'000;
+
+ImuInputParams params() {
+  ImuInputParams params;
+  params.max_specific_force_mps2 = 100.0;
+  params.max_rate_deg_per_s = 500.0;
+  params.gap_factor = 2.5;
+  return params;
+}
+
+ImuSample sampleAt(double t_s) { return {kStart + fromSeconds(t_s), Vector3(0.0, 0.0, -9.8), Vector3::Zero()}; }
+
+/// A screen that has seen regular samples at 50 Hz up to t = 0.
+ImuScreen running() {
+  ImuScreen screen(params());
+  for (int i = -50; i <= 0; ++i) {
+    EXPECT_EQ(screen.check(sampleAt(0.02 * i)).verdict, ImuVerdict::kAccepted);
+  }
+  return screen;
+}
+
+TEST(ImuScreen, RegularSamplesAreAccepted) {
+  ImuScreen screen = running();
+  const ImuScreen::Result result = screen.check(sampleAt(0.021));
+  EXPECT_EQ(result.verdict, ImuVerdict::kAccepted);
+  EXPECT_NEAR(result.duration_s, 0.021, 1e-9);
+  EXPECT_EQ(result.gap_s, 0.0);
+  EXPECT_EQ(screen.newestStamp(), sampleAt(0.021).stamp);
+}
+
+TEST(ImuScreen, TheFirstSampleHasNoInterval) {
+  ImuScreen screen(params());
+  EXPECT_EQ(screen.newestStamp(), 0);
+  EXPECT_EQ(screen.check(sampleAt(0.0)).duration_s, 0.0);
+}
+
+TEST(ImuScreen, BadNumbersAreRefusedAndLeaveNoTrace) {
+  ImuScreen screen = running();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  ImuSample sample = sampleAt(0.02);
+  sample.f_ib_b.y() = nan;
+  EXPECT_EQ(screen.check(sample).verdict, ImuVerdict::kNotFinite);
+  sample = sampleAt(0.02);
+  sample.omega_ib_b.x() = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(screen.check(sample).verdict, ImuVerdict::kNotFinite);
+  sample = sampleAt(0.02);
+  sample.f_ib_b.z() = -101.0;
+  EXPECT_EQ(screen.check(sample).verdict, ImuVerdict::kOutOfRange);
+  sample = sampleAt(0.02);
+  sample.omega_ib_b.z() = degToRad(501.0);
+  EXPECT_EQ(screen.check(sample).verdict, ImuVerdict::kOutOfRange);
+  EXPECT_EQ(screen.newestStamp(), kStart);
+  EXPECT_EQ(screen.check(sampleAt(0.02)).verdict, ImuVerdict::kAccepted);
+}
+
+TEST(ImuScreen, RepeatedAndSlightlyOlderSamplesAreRefused) {
+  ImuScreen screen = running();
+  EXPECT_EQ(screen.check(sampleAt(0.0)).verdict, ImuVerdict::kNotNewer);
+  EXPECT_EQ(screen.check(sampleAt(-0.02)).verdict, ImuVerdict::kNotNewer);
+  EXPECT_EQ(screen.check(sampleAt(-0.999)).verdict, ImuVerdict::kNotNewer);
+  EXPECT_EQ(screen.check(sampleAt(-1.0)).verdict, ImuVerdict::kTimeWentBack);
+  EXPECT_EQ(screen.check(sampleAt(-500.0)).verdict, ImuVerdict::kTimeWentBack);
+  EXPECT_EQ(screen.newestStamp(), kStart);
+}
+
+TEST(ImuScreen, GapsAreMeasuredAgainstTheUsualInterval) {
+  ImuScreen screen = running();
+  const ImuScreen::Result late = screen.check(sampleAt(0.049));
+  EXPECT_EQ(late.verdict, ImuVerdict::kAccepted);
+  ImuScreen other = running();
+  const ImuScreen::Result gap = other.check(sampleAt(0.1));
+  EXPECT_EQ(gap.verdict, ImuVerdict::kAfterGap);
+  EXPECT_NEAR(gap.duration_s, 0.1, 1e-9);
+  EXPECT_NEAR(gap.gap_s, 0.08, 1e-9);
+  // the gap does not become the usual interval
+  EXPECT_EQ(other.check(sampleAt(0.2)).verdict, ImuVerdict::kAfterGap);
+}
+
+TEST(ImuScreen, ResetForgets) {
+  ImuScreen screen = running();
+  screen.reset();
+  EXPECT_EQ(screen.newestStamp(), 0);
+  EXPECT_EQ(screen.check(sampleAt(-500.0)).verdict, ImuVerdict::kAccepted);
+  EXPECT_EQ(screen.check(sampleAt(-499.0)).verdict, ImuVerdict::kAccepted);  // any first interval is the usual one
+}
+
+TEST(ImuScreen, EveryRefusalHasItsWords) {
+  for (const ImuVerdict verdict :
+       {ImuVerdict::kNotFinite, ImuVerdict::kOutOfRange, ImuVerdict::kNotNewer, ImuVerdict::kTimeWentBack}) {
+    EXPECT_FALSE(isAccepted(verdict));
+    EXPECT_STRNE(complaintOf(verdict), "");
+  }
+  for (const ImuVerdict verdict : {ImuVerdict::kAccepted, ImuVerdict::kAfterGap}) {
+    EXPECT_TRUE(isAccepted(verdict));
+    EXPECT_STREQ(complaintOf(verdict), "");
+  }
+}
+
+}  // namespace
+}  // namespace slipnav::test

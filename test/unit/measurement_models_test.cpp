@@ -1,0 +1,201 @@
+/// Signs and noise of the measurement models, in the words of someone who drives the rover.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slipnav/filter/kalman_update.h"
+#include "slipnav/math/rotation.h"
+#include "slipnav/measurement/imu_mount.h"
+#include "slipnav/measurement/nonholonomic.h"
+#include "slipnav/measurement/position_fix.h"
+#include "slipnav/measurement/wheel_odometry.h"
+
+namespace slipnav::test {
+namespace {
+
+constexpr double kSpeed = 0.8;
+
+/// Heads east at 0.8 m/s on level ground.
+NavigationState eastbound() {
+  NavigationState state;
+  state.q_b_to_n = q_b_to_n_fromEuler(0.0, 0.0, 0.5 * kPi);
+  state.v_eb_n = Vector3(0.0, kSpeed, 0.0);
+  state.position = {degToRad(40.0), 0.0, 0.0};
+  return state;
+}
+
+const BodyMotion kDriving{0.1, Vector3(kSpeed, 0.0, 0.0), Vector3::Zero()};
+
+NavigationState corrected(const Measurement& measurement, const NavigationState& state) {
+  ErrorCovariance P = 0.01 * ErrorCovariance::Identity();
+  NavigationState result = state;
+  subtractError(Planet::byName("earth"), kalmanUpdate(measurement, P).value(), result);
+  return result;
+}
+
+TEST(MeasurementSigns, AFasterWheelSpeedsTheEstimateUp) {
+  const Measurement m = forwardSpeedMeasurement({}, kSpeed + 0.2, kDriving, eastbound(), {}, Vector3::Zero());
+  EXPECT_NEAR(m.residual(0), 0.2, 1e-12);
+  EXPECT_GT(corrected(m, eastbound()).v_eb_n.y(), kSpeed);
+}
+
+TEST(MeasurementSigns, SlipTakesFromTheWheelsSpeed) {
+  VehicleState slipping;
+  slipping.slow_slip = 0.1;
+  // at 10 % slip the wheels have to turn faster than the rover moves
+  const Measurement m = forwardSpeedMeasurement({}, kSpeed, kDriving, eastbound(), slipping, Vector3::Zero());
+  EXPECT_NEAR(m.residual(0), kSpeed - kSpeed / 0.9, 1e-12);
+  // wheels that are faster than the rover are explained by more slip
+  ErrorCovariance P = ErrorCovariance::Zero();
+  P(kSlowSlip, kSlowSlip) = 0.01;
+  VehicleState vehicle;
+  const Measurement faster = forwardSpeedMeasurement({}, kSpeed + 0.2, kDriving, eastbound(), vehicle, Vector3::Zero());
+  subtractError(kalmanUpdate(faster, P).value(), vehicle);
+  EXPECT_GT(vehicle.slow_slip, 0.05);
+}
+
+TEST(MeasurementSigns, WheelsThatTurnLessThanTheGyroRaiseItsBias) {
+  BodyMotion turning = kDriving;
+  turning.omega_ib_b.z() = 0.2;
+  const Measurement m = yawRateMeasurement({}, 0.1, turning);
+  EXPECT_NEAR(m.residual(0), -0.1, 1e-12);
+  EXPECT_GT(corrected(m, eastbound()).gyro_bias_b.z(), 0.0);
+}
+
+TEST(MeasurementSigns, ASidewaysVelocityIsTakenBack) {
+  NavigationState state = eastbound();
+  state.v_eb_n.x() = -0.1;  // south: to the right of an eastbound rover
+  const BodyMotion motion{0.1, Vector3(kSpeed, 0.1, 0.0), Vector3::Zero()};
+  const Measurement m = lateralMeasurement({}, motion, state, {}, Vector3::Zero());
+  EXPECT_NEAR(m.residual(0), -0.1, 1e-12);
+  EXPECT_GT(corrected(m, state).v_eb_n.x(), state.v_eb_n.x());
+}
+
+TEST(MeasurementSigns, ASinkingVelocityIsTakenBack) {
+  NavigationState state = eastbound();
+  state.v_eb_n.z() = 0.1;
+  const BodyMotion motion{0.1, Vector3(kSpeed, 0.0, 0.1), Vector3::Zero()};
+  const Measurement m = verticalMeasurement({}, motion, state, {}, Vector3::Zero());
+  EXPECT_NEAR(m.residual(0), -0.1, 1e-12);
+  EXPECT_LT(corrected(m, state).v_eb_n.z(), 0.1);
+}
+
+TEST(MeasurementSigns, ALeverArmSweepsSideways) {
+  // the reference point is 1 m ahead of the IMU; a turn to the right sweeps it to the right
+  const Vector3 v_b = bodyVelocity(eastbound(), Vector3(0.0, 0.0, 0.1), Vector3(1.0, 0.0, 0.0));
+  EXPECT_NEAR((v_b - Vector3(kSpeed, 0.1, 0.0)).norm(), 0.0, 1e-12);
+}
+
+TEST(MeasurementSigns, SlipAngleIsPositiveToTheRight) {
+  EXPECT_NEAR(slipAngle(Vector3(1.0, 0.1, 0.0), {}), std::atan(0.1), 1e-12);
+  VehicleState crooked;
+  crooked.mount_yaw_rad = -0.1;  // the IMU's axes are turned to the left: straight ahead seems to go to the right
+  EXPECT_NEAR(slipAngle(Vector3(1.0, 0.1, 0.0), crooked), 0.0, 1e-12);
+}
+
+TEST(MeasurementSigns, StraightReverseHasNoSlipAngle) {
+  EXPECT_NEAR(slipAngle(Vector3(-1.0, 0.0, 0.0), {}), 0.0, 1e-12);
+  EXPECT_NEAR(slipAngle(Vector3(-1.0, -0.1, 0.0), {}), std::atan(0.1), 1e-12);
+}
+
+TEST(SideSlip, IsExcessiveWhenItIsLargeAndReal) {
+  NonholonomicParams params;
+  params.max_side_slip_deg = 15.0;
+  const double variance = 0.02 * 0.02;
+  const auto excessive = [&](double v_x, double v_y) {
+    return isExcessiveSideSlip(params, {0.1, Vector3(v_x, v_y, 0.0), Vector3::Zero()}, {}, variance);
+  };
+  EXPECT_TRUE(excessive(0.3, 0.2));
+  EXPECT_TRUE(excessive(-0.3, 0.2));
+  EXPECT_FALSE(excessive(0.8, 0.2));    // 14°
+  EXPECT_FALSE(excessive(0.05, 0.05));  // 45°, but no more than noise makes of a standing rover
+}
+
+TEST(MeasurementNoise, GrowsWithSpeedAndTurns) {
+  WheelOdometryParams wheel;
+  wheel.speed_std_mps = 0.02;
+  wheel.slip_noise_std = 0.1;
+  wheel.yaw_rate_std_deg_per_s = 2.0;
+  wheel.yaw_rate_scale_std = 0.5;
+  BodyMotion motion = kDriving;
+  motion.omega_ib_b = Vector3(0.3, 0.4, 0.2);
+  const NavigationState state = eastbound();
+  EXPECT_NEAR(forwardSpeedMeasurement(wheel, kSpeed, motion, state, {}, Vector3::Zero()).variance(0),
+              0.02 * 0.02 + std::pow(0.1 * kSpeed, 2), 1e-12);
+  EXPECT_NEAR(yawRateMeasurement(wheel, 0.0, motion).variance(0), std::pow(degToRad(2.0), 2) + 0.1 * 0.1, 1e-12);
+  NonholonomicParams ground;
+  ground.lateral_std_mps = 0.01;
+  ground.lateral_turn_std_m = 0.3;
+  ground.vertical_std_mps = 0.03;
+  ground.vertical_turn_std_m = 0.2;
+  EXPECT_NEAR(lateralMeasurement(ground, motion, state, {}, Vector3::Zero()).variance(0), 0.01 * 0.01 + 0.06 * 0.06,
+              1e-12);
+  EXPECT_NEAR(verticalMeasurement(ground, motion, state, {}, Vector3::Zero()).variance(0), 0.03 * 0.03 + 0.1 * 0.1,
+              1e-12);
+}
+
+TEST(PositionFixModel, PullsTheImuThroughTheLeverArm) {
+  const Planet earth = Planet::byName("earth");
+  NavigationState state = eastbound();
+  PositionFix fix;
+  fix.stamp = state.stamp;
+  fix.position = state.position;
+  fix.position.height_m = 2.0;
+  fix.variance_ned_m2 = Vector3(0.01, 0.02, 0.03);
+  // antenna 1 m ahead (east) and 2 m above: the fix should lie there, and lies 1 m west of it
+  const Measurement m = positionMeasurement(earth, fix, state, Vector3(1.0, 0.0, -2.0));
+  EXPECT_NEAR((m.residual - Vector3(0.0, -1.0, 0.0)).norm(), 0.0, 1e-6);
+  EXPECT_LT(corrected(m, state).position.longitude_rad, state.position.longitude_rad);
+  EXPECT_EQ(Vector3(m.variance), fix.variance_ned_m2);
+}
+
+TEST(PositionFixModel, CarriesTheStateBackToTheFix) {
+  const Planet earth = Planet::byName("earth");
+  const NavigationState state = eastbound();
+  PositionFix fix;
+  fix.stamp = state.stamp - 10'000'000;
+  fix.position = state.position;
+  // 10 ms earlier the rover was 8 mm further west than now
+  EXPECT_NEAR(positionMeasurement(earth, fix, state, Vector3::Zero()).residual(1), 0.008, 1e-9);
+}
+
+TEST(PositionFixModel, TakesDegreesFromTheReceiver) {
+  GnssFix gnss;
+  gnss.stamp = 5;
+  gnss.latitude_deg = 90.0;
+  gnss.longitude_deg = -180.0;
+  gnss.height_m = 12.0;
+  gnss.covariance_ned_m2 = Vector3(1.0, 2.0, 3.0).asDiagonal();
+  const PositionFix fix = toPositionFix(gnss);
+  EXPECT_EQ(fix.stamp, 5);
+  EXPECT_DOUBLE_EQ(fix.position.latitude_rad, 0.5 * kPi);
+  EXPECT_DOUBLE_EQ(fix.position.longitude_rad, -kPi);
+  EXPECT_DOUBLE_EQ(fix.position.height_m, 12.0);
+  EXPECT_EQ(fix.variance_ned_m2, Vector3(1.0, 2.0, 3.0));
+}
+
+TEST(ImuMount, TurnsIntoForwardRightDown) {
+  const Vector3 up(0.0, 0.0, 9.8);
+  EXPECT_NEAR((ImuMount({}).toBody(7, up, Vector3::Zero()).f_ib_b - Vector3(0.0, 0.0, -9.8)).norm(), 0.0, 1e-12);
+  // URDF yaw of 90° left: the sensor's x axis points to the rover's left
+  MountParams left;
+  left.yaw_deg = 90.0;
+  const ImuSample sample = ImuMount(left).toBody(7, Vector3::UnitX(), Vector3::UnitY());
+  EXPECT_EQ(sample.stamp, 7);
+  EXPECT_NEAR((sample.f_ib_b - Vector3(0.0, -1.0, 0.0)).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((sample.omega_ib_b - Vector3(-1.0, 0.0, 0.0)).norm(), 0.0, 1e-12);
+  // a sensor with forward-right-down axes is rolled by 180° in base_link
+  MountParams frd;
+  frd.roll_deg = 180.0;
+  const Vector3 v(1.0, 2.0, 3.0);
+  EXPECT_NEAR((ImuMount(frd).toBody(0, v, v).f_ib_b - v).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((ImuMount(left).toSensor(ImuMount(left).toBody(0, v, v).f_ib_b) - v).norm(), 0.0, 1e-12);
+  left.x_m = 1.0;
+  left.y_m = 2.0;
+  left.z_m = 3.0;
+  EXPECT_EQ(left.position_b(), Vector3(1.0, -2.0, -3.0));
+}
+
+}  // namespace
+}  // namespace slipnav::test
