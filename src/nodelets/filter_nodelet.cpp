@@ -133,11 +133,8 @@ class FilterNodelet : public CoreNodelet {
   void tell(const std::optional<Correction>& correction) {
     const auto message = boost::make_shared<FilterCorrection>();
     message->session = session_;
-    message->corrects = correction.has_value();
     if (correction) {
-      message->epoch = correction->epoch;
-      message->sequence = correction->sequence;
-      message->state = toMessage(correction->state);
+      fill(*correction, *message);
     }
     message->run_until = toRosTime(look_ahead_.runUntil());
     look_ahead_.told(look_ahead_.runUntil());

@@ -2,11 +2,12 @@
 
 #include <chrono>
 #include <ctime>
+#include <stdexcept>
 
 #include "slipnav/eval/offline_run.h"
 #include "slipnav/eval/rtklib_pos.h"
 #include "slipnav/navigator/sample_merger.h"
-#include "slipnav/ros/bag_reader.h"
+#include "slipnav/ros/child_process.h"
 
 namespace slipnav {
 namespace {
@@ -59,10 +60,11 @@ void feed(const BagReader& reader, bool with_truth, OfflineRun& run, std::map<st
 
 }  // namespace
 
-BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth) {
+BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
+                          const BagRange& range) {
   const Stopwatch stopwatch;
   const bool truth_from_file = isRtklibFile(truth);
-  const BagReader reader(path, config, truth_from_file ? "" : truth);
+  const BagReader reader(path, config, truth_from_file ? "" : truth, range);
   OfflineRun run(reader.config(), true);
   if (truth_from_file) {
     for (const RtklibSolution& solution : readRtklibPos(truth)) {
@@ -75,6 +77,31 @@ BagEvaluation evaluateBag(const std::string& path, const Config& config, const s
   evaluation.report.metrics.cpu_s = stopwatch.cpu();
   evaluation.report.metrics.realtime_factor = reader.duration() / stopwatch.wall();
   return evaluation;
+}
+
+RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates, double wall_s) {
+  MetricsInput input;
+  input.estimates = estimates;
+  input.truth = report.truth;
+  input.no_zupt_error_pct = report.metrics.no_zupt_error_pct;
+  input.counters.imu_samples = report.metrics.imu_samples;
+  input.counters.wheel_samples = report.metrics.wheel_samples;
+  input.counters.rejected_samples = report.metrics.rejected_samples;
+  RunReport result;
+  result.estimates = estimates;
+  result.truth = report.truth;
+  result.forecasts = report.forecasts;
+  result.metrics = computeMetrics(input);
+  result.metrics.wheel_only_error_pct = report.metrics.wheel_only_error_pct;
+  result.metrics.realtime_factor = result.metrics.duration_s / wall_s;
+  return result;
+}
+
+void plotReport(const std::string& directory) {
+  ChildProcess plotter({besideThisExecutable("plot_report.py"), directory});
+  if (plotter.wait() != 0) {
+    throw std::runtime_error("the plots could not be made");
+  }
 }
 
 std::string runName(const std::string& path) {

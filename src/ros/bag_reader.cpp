@@ -48,7 +48,8 @@ struct BagReader::Parts {
   mutable rosbag::Bag bag;
   std::map<std::string, std::string> types;  ///< of each topic, by its bare name
   std::string truth_topic;                   ///< bare; "" when there is none
-  double duration_s = 0.0;
+  ros::Time begin;
+  ros::Time end;
 
   [[noreturn]] void fail(const std::string& what) const { throw std::invalid_argument(path + ": " + what); }
 
@@ -74,12 +75,19 @@ struct BagReader::Parts {
     return !type.empty();
   }
 
-  void scan() {
+  void scan(const BagRange& range) {
     rosbag::View all(bag);
     if (all.size() == 0) {
       fail("has no messages");
     }
-    duration_s = (all.getEndTime() - all.getBeginTime()).toSec();
+    begin = all.getBeginTime() + ros::Duration(range.start_s);
+    end = all.getEndTime();
+    if (range.duration_s > 0.0) {
+      end = std::min(end, begin + ros::Duration(range.duration_s));
+    }
+    if (end < begin) {
+      fail("is shorter than " + std::to_string(range.start_s) + " s");
+    }
     for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
       types[bare(connection->topic)] = connection->datatype;
     }
@@ -196,12 +204,12 @@ struct BagReader::Parts {
   }
 };
 
-BagReader::BagReader(const std::string& path, const Config& config, const std::string& truth)
+BagReader::BagReader(const std::string& path, const Config& config, const std::string& truth, const BagRange& range)
     : parts_(std::make_unique<Parts>()) {
   parts_->path = path;
   parts_->config = config;
   open(path, parts_->bag);
-  parts_->scan();
+  parts_->scan(range);
   parts_->requireInputs();
   parts_->chooseTruth(truth);
   parts_->requireTruthToStartFrom();
@@ -220,7 +228,7 @@ bool BagReader::truthIsGeodetic() const {
   return parts_->truth_topic.empty() || parts_->typeOf(parts_->truth_topic) == typeName<sensor_msgs::NavSatFix>();
 }
 
-double BagReader::duration() const { return parts_->duration_s; }
+double BagReader::duration() const { return (parts_->end - parts_->begin).toSec(); }
 
 void BagReader::read(const BagSink& sink) const {
   const TopicNames& topics = parts_->config.topics;
@@ -228,7 +236,7 @@ void BagReader::read(const BagSink& sink) const {
   WheelInput wheels(parts_->config);
   bool start_wanted = parts_->config.initialization.source == "truth";
   try {
-    for (const rosbag::MessageInstance& instance : rosbag::View(parts_->bag)) {
+    for (const rosbag::MessageInstance& instance : rosbag::View(parts_->bag, parts_->begin, parts_->end)) {
       const std::string topic = bare(instance.getTopic());
       if (topic == bare(topics.imu)) {
         sink.imu(toImuSample(*instance.instantiate<sensor_msgs::Imu>(), mount));

@@ -5,6 +5,9 @@
 #include "slipnav/ros/conversions.h"
 
 namespace slipnav {
+
+// Structs are taken apart member by member, so that one that gains a member does not compile here until it is sent too.
+
 namespace {
 
 template <class Array>
@@ -17,20 +20,22 @@ Vector3 vectorOf(const Array& array) {
   return {array[0], array[1], array[2]};
 }
 
+static_assert(StartState::_covariance_type::static_size == kErrorStates * kErrorStates);
 using RowMajorCovariance = Eigen::Matrix<double, kErrorStates, kErrorStates, Eigen::RowMajor>;
 
 }  // namespace
 
 InertialState toMessage(const NavigationState& state) {
+  const auto& [stamp, q_b_to_n, v_eb_n, position, accel_bias_b, gyro_bias_b] = state;
   InertialState message;
-  message.stamp = toRosTime(state.stamp);
-  message.q_b_to_n = {state.q_b_to_n.w(), state.q_b_to_n.x(), state.q_b_to_n.y(), state.q_b_to_n.z()};
-  copyVector(state.v_eb_n, message.v_eb_n);
-  message.latitude_rad = state.position.latitude_rad;
-  message.longitude_rad = state.position.longitude_rad;
-  message.height_m = state.position.height_m;
-  copyVector(state.accel_bias_b, message.accel_bias_b);
-  copyVector(state.gyro_bias_b, message.gyro_bias_b);
+  message.stamp = toRosTime(stamp);
+  message.q_b_to_n = {q_b_to_n.w(), q_b_to_n.x(), q_b_to_n.y(), q_b_to_n.z()};
+  copyVector(v_eb_n, message.v_eb_n);
+  message.latitude_rad = position.latitude_rad;
+  message.longitude_rad = position.longitude_rad;
+  message.height_m = position.height_m;
+  copyVector(accel_bias_b, message.accel_bias_b);
+  copyVector(gyro_bias_b, message.gyro_bias_b);
   return message;
 }
 
@@ -46,13 +51,15 @@ NavigationState fromMessage(const InertialState& message) {
 }
 
 InsInterval toMessage(const InsStep& step) {
+  const auto& [sequence, epoch, start, state, f_ib_b, omega_ib_b, gap_s] = step;
+  static_cast<void>(epoch);  // of the whole batch
   InsInterval message;
-  message.sequence = step.sequence;
-  message.start = toRosTime(step.start);
-  message.state = toMessage(step.state);
-  copyVector(step.f_ib_b, message.f_ib_b);
-  copyVector(step.omega_ib_b, message.omega_ib_b);
-  message.gap_s = step.gap_s;
+  message.sequence = sequence;
+  message.start = toRosTime(start);
+  message.state = toMessage(state);
+  copyVector(f_ib_b, message.f_ib_b);
+  copyVector(omega_ib_b, message.omega_ib_b);
+  message.gap_s = gap_s;
   return message;
 }
 
@@ -69,14 +76,15 @@ InsStep fromMessage(const InsInterval& message, std::uint32_t epoch) {
 }
 
 void fill(const InitialState& initial, StartState& message) {
-  message.state = toMessage(initial.nav);
-  const VehicleState& vehicle = initial.vehicle;
-  message.vehicle = {vehicle.wheel_scale, vehicle.slow_slip,       vehicle.fast_slip,
-                     vehicle.side_slip,   vehicle.mount_pitch_rad, vehicle.mount_yaw_rad};
-  Eigen::Map<RowMajorCovariance>(message.covariance.data()) = initial.P;
-  message.origin_latitude_rad = initial.origin.latitude_rad;
-  message.origin_longitude_rad = initial.origin.longitude_rad;
-  message.origin_height_m = initial.origin.height_m;
+  const auto& [nav, vehicle, P, origin, tremor_variance] = initial;
+  const auto& [wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad] = vehicle;
+  message.state = toMessage(nav);
+  message.vehicle = {wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad};
+  Eigen::Map<RowMajorCovariance>(message.covariance.data()) = P;
+  message.tremor_variance = tremor_variance;
+  message.origin_latitude_rad = origin.latitude_rad;
+  message.origin_longitude_rad = origin.longitude_rad;
+  message.origin_height_m = origin.height_m;
 }
 
 InitialState fromMessage(const StartState& message) {
@@ -85,8 +93,17 @@ InitialState fromMessage(const StartState& message) {
   initial.vehicle = {message.vehicle[0], message.vehicle[1], message.vehicle[2],
                      message.vehicle[3], message.vehicle[4], message.vehicle[5]};
   initial.P = Eigen::Map<const RowMajorCovariance>(message.covariance.data());
+  initial.tremor_variance = message.tremor_variance;
   initial.origin = {message.origin_latitude_rad, message.origin_longitude_rad, message.origin_height_m};
   return initial;
+}
+
+void fill(const Correction& correction, FilterCorrection& message) {
+  const auto& [sequence, epoch, state] = correction;
+  message.corrects = true;
+  message.sequence = sequence;
+  message.epoch = epoch;
+  message.state = toMessage(state);
 }
 
 Correction fromMessage(const FilterCorrection& message) {

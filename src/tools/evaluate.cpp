@@ -1,12 +1,10 @@
 /// Runs the pipeline on a recording and measures it against its truth.
 
 #include <iostream>
-#include <stdexcept>
 
 #include "slipnav/config/config_options.h"
 #include "slipnav/eval/report.h"
 #include "slipnav/ros/bag_evaluation.h"
-#include "slipnav/ros/child_process.h"
 
 namespace {
 
@@ -31,13 +29,6 @@ void checkArguments(const Arguments& arguments) {
   }
 }
 
-void plot(const std::string& directory) {
-  slipnav::ChildProcess plotter({slipnav::besideThisExecutable("plot_report.py"), directory});
-  if (plotter.wait() != 0) {
-    throw std::runtime_error("the plots could not be made");
-  }
-}
-
 int run(int argc, char** argv) {
   const CommandLine command_line = commandLine();
   const Arguments arguments = command_line.parse(argc, argv);
@@ -48,7 +39,7 @@ int run(int argc, char** argv) {
   checkArguments(arguments);
   const std::string& bag = arguments.text("BAG");
   const slipnav::Config config = slipnav::configFromOptions(arguments);
-  const slipnav::BagEvaluation evaluation = slipnav::evaluateBag(bag, config, arguments.text("truth"));
+  const slipnav::BagEvaluation evaluation = slipnav::evaluateBag(bag, config, arguments.text("truth"), {});
   for (const auto& [problem, count] : evaluation.problems) {
     std::cerr << "evaluate: " << problem << " (" << count << " messages left out)\n";
   }
@@ -56,7 +47,7 @@ int run(int argc, char** argv) {
     slipnav::writeRunReport(arguments.text("out"), evaluation.report);
   }
   if (arguments.given("report")) {
-    plot(arguments.text("out"));
+    slipnav::plotReport(arguments.text("out"));
   }
   std::cout << slipnav::tableHeader()
             << slipnav::tableRow(slipnav::runName(bag), std::nullopt, evaluation.report.metrics);

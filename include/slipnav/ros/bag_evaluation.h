@@ -6,6 +6,7 @@
 
 #include "slipnav/config/config.h"
 #include "slipnav/eval/report.h"
+#include "slipnav/ros/bag_reader.h"
 
 namespace slipnav {
 
@@ -14,9 +15,18 @@ struct BagEvaluation {
   std::map<std::string, int> problems;  ///< messages that could not be used: what was wrong, how often
 };
 
+/// @param range the part of the recording to use
 /// @param truth topic or RTKLIB file (.pos) of the truth; "" for what the recording has, see BagReader
 /// Throws std::invalid_argument for a recording that cannot be used, std::runtime_error when no start could be found.
-BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth);
+BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
+                          const BagRange& range);
+
+/// The report with other estimates of the same drive in the place of its own; errors, stops and times become theirs.
+/// @param wall_s what it took to make them [s]
+RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates, double wall_s);
+
+/// Draws the plots of a report that is in `directory`. Throws std::runtime_error when that fails.
+void plotReport(const std::string& directory);
 
 /// Name of a run in tables: the file without folder and ending.
 std::string runName(const std::string& path);

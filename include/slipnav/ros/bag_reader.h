@@ -25,12 +25,18 @@ struct BagSink {
   std::function<void(const std::string&)> problem;
 };
 
+/// Part of a recording, as rosbag play counts it.
+struct BagRange {
+  double start_s = 0.0;     ///< from the beginning
+  double duration_s = 0.0;  ///< 0: up to the end
+};
+
 /// All errors are std::invalid_argument of one line that names the file: missing, damaged, not indexed, without
 /// messages, or without a topic that is needed.
 class BagReader {
  public:
   /// @param truth topic of the truth; "" for the first of truth/fix, truth/odometry, truth/pose that the bag has
-  BagReader(const std::string& path, const Config& config, const std::string& truth = "");
+  BagReader(const std::string& path, const Config& config, const std::string& truth = "", const BagRange& range = {});
   ~BagReader();
   BagReader(BagReader&&) noexcept;
   BagReader& operator=(BagReader&&) noexcept;
@@ -39,7 +45,7 @@ class BagReader {
   const Config& config() const;
   /// Whether the truth is a fix by latitude and longitude (and not a pose in a frame of its own), or there is none.
   bool truthIsGeodetic() const;
-  /// Time from the first to the last message [s].
+  /// Time from the first to the last message that is read [s].
   double duration() const;
 
   /// Hands out all messages in the order of the recording.

@@ -22,6 +22,8 @@ InsStep fromMessage(const InsInterval& message, std::uint32_t epoch);
 void fill(const InitialState& initial, StartState& message);
 InitialState fromMessage(const StartState& message);
 
+/// Fills everything but the session and the look-ahead.
+void fill(const Correction& correction, FilterCorrection& message);
 /// For a message that corrects.
 Correction fromMessage(const FilterCorrection& message);
 

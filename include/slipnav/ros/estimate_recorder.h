@@ -1,0 +1,35 @@
+#pragma once
+/// Puts the messages of an estimator together again as the track that the evaluation takes.
+
+#include <nav_msgs/Odometry.h>
+#include <slipnav/NavState.h>
+#include <slipnav/Slip.h>
+
+#include <map>
+
+#include "slipnav/eval/estimate.h"
+
+namespace slipnav {
+
+class EstimateRecorder {
+ public:
+  /// A message that is older than the newest by a second or more begins a new track.
+  void add(const nav_msgs::Odometry& message);
+  void add(const NavState& message);
+  void add(const Slip& message);
+
+  std::size_t size() const { return estimates_.size(); }
+  Nanoseconds newestStamp() const { return estimates_.empty() ? 0 : estimates_.rbegin()->first; }
+
+  EstimateTrack track() const;
+
+ private:
+  template <class Value>
+  static void insert(Nanoseconds stamp, const Value& value, std::map<Nanoseconds, Value>& values);
+
+  std::map<Nanoseconds, EstimateSample> estimates_;
+  std::map<Nanoseconds, bool> stationary_;
+  std::map<Nanoseconds, double> slip_;  ///< NaN where undefined
+};
+
+}  // namespace slipnav

@@ -1,0 +1,45 @@
+#pragma once
+/// One recording played through the nodelets that are running, and what they made of it.
+
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "slipnav/config/topics.h"
+#include "slipnav/ros/estimate_recorder.h"
+
+namespace slipnav {
+
+struct ReplayOptions {
+  std::string bag;
+  double rate = 1.0;        ///< factor on real time
+  double start_s = 0.0;     ///< from the beginning of the recording
+  double duration_s = 0.0;  ///< 0: up to its end
+};
+
+class ReplaySession {
+ public:
+  /// Listens to the nodelets' outputs, relative to the node's namespace.
+  explicit ReplaySession(const TopicNames& topics);
+
+  /// Waits until all nodelets are there and connected. Throws std::runtime_error that says what is missing.
+  void waitForNodelets();
+
+  /// Plays with rosbag play, with its clock, all topics that somebody listens to. Nobody misses a message: playing
+  /// starts when everybody is connected, and queues hold whatever comes.
+  /// Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
+  void play(const ReplayOptions& options);
+
+  /// Waits for the estimate of `last_stamp`, at most until nothing has come for some seconds.
+  void waitForEstimate(Nanoseconds last_stamp);
+
+  const EstimateRecorder& recorder() const { return recorder_; }
+
+ private:
+  ros::NodeHandle node_;
+  EstimateRecorder recorder_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace slipnav

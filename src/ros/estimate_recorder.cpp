@@ -1,0 +1,55 @@
+#include "slipnav/ros/estimate_recorder.h"
+
+#include <cmath>
+
+#include "slipnav/ins/imu_screen.h"
+#include "slipnav/ros/conversions.h"
+
+namespace slipnav {
+
+template <class Value>
+void EstimateRecorder::insert(Nanoseconds stamp, const Value& value, std::map<Nanoseconds, Value>& values) {
+  if (!values.empty() && stamp <= values.rbegin()->first - kRestartBackstep) {
+    values.clear();
+  }
+  values[stamp] = value;
+}
+
+void EstimateRecorder::add(const nav_msgs::Odometry& message) {
+  EstimateSample sample;
+  sample.stamp = toNanoseconds(message.header.stamp);
+  const geometry_msgs::Point& position = message.pose.pose.position;
+  const geometry_msgs::Quaternion& q = message.pose.pose.orientation;
+  sample.position_enu_m = {position.x, position.y, position.z};
+  sample.q_flu_to_enu = Quaternion(q.w, q.x, q.y, q.z);
+  sample.covariance_enu_m2 =
+      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data())
+          .topLeftCorner<3, 3>();
+  sample.speed_mps = message.twist.twist.linear.x;
+  insert(sample.stamp, sample, estimates_);
+}
+
+void EstimateRecorder::add(const NavState& message) {
+  insert(toNanoseconds(message.header.stamp), message.status == NavState::STATUS_STATIONARY, stationary_);
+}
+
+void EstimateRecorder::add(const Slip& message) {
+  insert(toNanoseconds(message.header.stamp), message.mean_ratio, slip_);
+}
+
+EstimateTrack EstimateRecorder::track() const {
+  EstimateTrack track;
+  track.reserve(estimates_.size());
+  for (const auto& [stamp, estimate] : estimates_) {
+    track.push_back(estimate);
+    const auto stationary = stationary_.find(stamp);
+    track.back().stationary = stationary != stationary_.end() && stationary->second;
+    const auto after = slip_.upper_bound(stamp);
+    if (after != slip_.begin() && !std::isnan(std::prev(after)->second)) {
+      track.back().slip = std::prev(after)->second;
+    }
+  }
+  return track;
+}
+
+}  // namespace slipnav

@@ -1,0 +1,138 @@
+#include "slipnav/ros/replay_session.h"
+
+#include <ros/callback_queue.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <stdexcept>
+
+#include "slipnav/config/text.h"
+#include "slipnav/ros/child_process.h"
+#include "slipnav/ros/internal_topics.h"
+
+namespace slipnav {
+namespace {
+
+constexpr double kStartTimeout_s = 60.0;
+constexpr double kSilence_s = 5.0;
+const ros::WallDuration kPollInterval(0.02);
+
+/// Serves callbacks until `done`; @return false when nothing has come of it within the time, if there is a limit.
+template <class Done>
+bool spinUntil(Done done, std::optional<double> timeout_s) {
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  while (!done()) {
+    if (!ros::ok()) {
+      throw std::runtime_error("ROS was shut down");
+    }
+    if (timeout_s && (ros::SteadyTime::now() - begin).toSec() > *timeout_s) {
+      return false;
+    }
+    ros::getGlobalCallbackQueue()->callAvailable(kPollInterval);
+  }
+  return true;
+}
+
+/// Topics that have at least one node of the given kind (0: publishers, 1: subscribers), as the master knows them.
+std::set<std::string> topicsWith(int kind) {
+  XmlRpc::XmlRpcValue request;
+  XmlRpc::XmlRpcValue response;
+  XmlRpc::XmlRpcValue payload;
+  request[0] = ros::this_node::getName();
+  std::set<std::string> topics;
+  if (ros::master::execute("getSystemState", request, response, payload, false)) {
+    XmlRpc::XmlRpcValue entries = payload[kind];
+    for (int i = 0; i < entries.size(); ++i) {
+      topics.insert(static_cast<std::string>(entries[i][0]));
+    }
+  }
+  return topics;
+}
+
+std::vector<std::string> recordedTopics(const std::string& path) {
+  rosbag::Bag bag(path);
+  std::set<std::string> topics;
+  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
+    topics.insert(connection->topic);
+  }
+  return {topics.begin(), topics.end()};
+}
+
+}  // namespace
+
+ReplaySession::ReplaySession(const TopicNames& topics) {
+  const auto listen = [this](const std::string& topic, auto handler) {
+    subscribers_.push_back(node_.subscribe(topic, 0, handler, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  };
+  listen(topics.odometry, boost::function<void(const nav_msgs::Odometry::ConstPtr&)>(
+                              [this](const nav_msgs::Odometry::ConstPtr& message) { recorder_.add(*message); }));
+  listen(topics.nav_state, boost::function<void(const NavState::ConstPtr&)>(
+                               [this](const NavState::ConstPtr& message) { recorder_.add(*message); }));
+  listen(topics.slip, boost::function<void(const Slip::ConstPtr&)>(
+                          [this](const Slip::ConstPtr& message) { recorder_.add(*message); }));
+}
+
+void ReplaySession::waitForNodelets() {
+  // Each nodelet announces its internal topic when it has subscribed to everything else.
+  std::string missing;
+  const auto all_there = [this, &missing] {
+    const std::set<std::string> published = topicsWith(0);
+    missing.clear();
+    for (const char* topic : {kInsStepsTopic, kCorrectionTopic, kInitialStateTopic}) {
+      const std::string name = node_.resolveName(topic);
+      if (published.count(name) == 0) {
+        missing += " " + name;
+      }
+    }
+    return missing.empty();
+  };
+  if (!spinUntil(all_there, kStartTimeout_s)) {
+    throw std::runtime_error("the nodelets do not start, nobody publishes" + missing);
+  }
+  const auto connected = [this] {
+    return std::all_of(subscribers_.begin(), subscribers_.end(),
+                       [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; });
+  };
+  if (!spinUntil(connected, kStartTimeout_s)) {
+    throw std::runtime_error("the outputs of the nodelets cannot be subscribed to");
+  }
+}
+
+void ReplaySession::play(const ReplayOptions& options) {
+  std::vector<std::string> command = {"rosbag",
+                                      "play",
+                                      "--quiet",
+                                      "--clock",
+                                      "--wait-for-subscribers",
+                                      "--queue=1000000",
+                                      "--rate=" + formatNumber(options.rate),
+                                      "--start=" + formatNumber(options.start_s)};
+  if (options.duration_s > 0.0) {
+    command.push_back("--duration=" + formatNumber(options.duration_s));
+  }
+  command.insert(command.end(), {options.bag, "--topics"});
+  const std::set<std::string> wanted = topicsWith(1);
+  for (const std::string& topic : recordedTopics(options.bag)) {
+    if (wanted.count(node_.resolveName(topic)) > 0 || wanted.count("/" + topic) > 0) {
+      command.push_back(topic);
+    }
+  }
+  ChildProcess player(command);
+  spinUntil([&player] { return player.poll().has_value(); }, std::nullopt);
+  if (player.wait() != 0) {
+    throw std::runtime_error("rosbag play has failed");
+  }
+}
+
+void ReplaySession::waitForEstimate(Nanoseconds last_stamp) {
+  std::size_t size = 0;
+  do {
+    size = recorder_.size();
+    spinUntil([this, last_stamp] { return recorder_.newestStamp() >= last_stamp; }, kSilence_s);
+  } while (recorder_.newestStamp() < last_stamp && recorder_.size() > size);
+}
+
+}  // namespace slipnav

@@ -1,0 +1,98 @@
+/// Plays a recording through the running nodelets and measures their estimate against the recording's truth. The node
+/// behind replay.launch.
+
+#include <ros/ros.h>
+
+#include <iostream>
+
+#include "slipnav/config/command_line.h"
+#include "slipnav/eval/report.h"
+#include "slipnav/ros/bag_evaluation.h"
+#include "slipnav/ros/parameters.h"
+#include "slipnav/ros/replay_session.h"
+
+namespace {
+
+using slipnav::Arguments;
+using slipnav::CommandLine;
+using slipnav::Range;
+
+CommandLine commandLine() {
+  CommandLine command_line("replay", "Plays a recording through the running nodelets and measures their estimate.");
+  command_line.positional("BAG", "recording of ROS 1")
+      .option("rate", "FACTOR", "how fast to play", "1")
+      .option("start", "S", "seconds from the beginning of the recording", "0")
+      .option("duration", "S", "seconds to play, 0 for all", "0")
+      .option("truth", "TOPIC|FILE.pos", "truth: a topic of the recording or an RTKLIB solution")
+      .option("out", "DIR", "where metrics.json and the other results go")
+      .option("tree", "NAME", "parameter tree of the configuration", "slipnav")
+      .flag("report", "plots into the same place");
+  return command_line;
+}
+
+slipnav::ReplayOptions optionsOf(const Arguments& arguments) {
+  slipnav::ReplayOptions options;
+  options.bag = arguments.text("BAG");
+  options.rate = arguments.number("rate", Range{1e-3, 1e3});
+  options.start_s = arguments.number("start", Range{0.0, 1e9});
+  options.duration_s = arguments.number("duration", Range{0.0, 1e9});
+  return options;
+}
+
+/// How the recorded estimate compares with that of the offline run.
+void printComparison(const slipnav::EstimateTrack& recorded, const slipnav::EstimateTrack& offline) {
+  double largest_m = 0.0;
+  std::size_t common = 0;
+  for (std::size_t i = 0, j = 0; i < recorded.size() && j < offline.size();) {
+    if (recorded[i].stamp == offline[j].stamp) {
+      largest_m = std::max(largest_m, (recorded[i].position_enu_m - offline[j].position_enu_m).norm());
+      ++common;
+    }
+    const bool advance_recorded = recorded[i].stamp <= offline[j].stamp;
+    j += offline[j].stamp <= recorded[i].stamp ? 1 : 0;
+    i += advance_recorded ? 1 : 0;
+  }
+  std::cout << "replay: " << recorded.size() << " estimates, offline: " << offline.size() << ", in common: " << common
+            << ", largest difference: " << largest_m << " m\n";
+}
+
+int run(int argc, char** argv) {
+  ros::V_string words;
+  ros::removeROSArgs(argc, argv, words);
+  const CommandLine command_line = commandLine();
+  const Arguments arguments = command_line.parse({words.begin() + 1, words.end()});
+  if (arguments.helpRequested()) {
+    std::cout << command_line.help();
+    return 0;
+  }
+  ros::init(argc, argv, "replay");
+  const slipnav::Config config = slipnav::configFromParameters(ros::NodeHandle(), arguments.text("tree"));
+  const slipnav::ReplayOptions options = optionsOf(arguments);
+  const slipnav::BagEvaluation offline =
+      slipnav::evaluateBag(options.bag, config, arguments.text("truth"), {options.start_s, options.duration_s});
+
+  slipnav::ReplaySession session(config.topics);
+  session.waitForNodelets();
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  session.play(options);
+  session.waitForEstimate(offline.report.estimates.back().stamp);
+  const double wall_s = (ros::SteadyTime::now() - begin).toSec();
+
+  const slipnav::RunReport report = slipnav::withEstimates(offline.report, session.recorder().track(), wall_s);
+  if (arguments.given("out")) {
+    slipnav::writeRunReport(arguments.text("out"), report);
+  }
+  if (arguments.given("out") && arguments.given("report")) {
+    slipnav::plotReport(arguments.text("out"));
+  }
+  printComparison(report.estimates, offline.report.estimates);
+  std::cout << slipnav::tableHeader() << slipnav::tableRow(slipnav::runName(options.bag), std::nullopt, report.metrics)
+            << std::flush;
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return slipnav::runGuarded("replay", std::cerr, [argc, argv] { return run(argc, argv); });
+}
