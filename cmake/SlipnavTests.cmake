@@ -9,7 +9,7 @@ file(GLOB consistency_sources CONFIGURE_DEPENDS "${test_folder}/consistency/*_te
 # catkin links its tests with the plain signature, which CMake does not let us mix with PRIVATE.
 function(slipnav_configure_test target)
   slipnav_configure_target(${target})
-  target_include_directories(${target} PRIVATE "${test_folder}")
+  target_include_directories(${target} PRIVATE "${test_folder}" "${test_folder}/support")
   target_compile_definitions(${target} PRIVATE SLIPNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # The fits are compared with NLopt's own.
   target_include_directories(${target} SYSTEM PRIVATE ${NLOPT_INCLUDE_DIR})
