@@ -1,0 +1,90 @@
+#include "slipnav/measurement/wheel_decoder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace slipnav {
+namespace {
+
+constexpr Nanoseconds kSecond = 1'000'000'000;
+
+using Names = std::vector<std::string>;
+using Values = std::vector<double>;
+
+std::vector<WheelParams> twoWheels() { return {{"left", 0.1, 0.0, 0.3, 1.0}, {"right", 0.1, 0.0, -0.3, -1.0}}; }
+
+class WheelDecoderTest : public ::testing::Test {
+ protected:
+  std::optional<WheelSample> decode(Nanoseconds stamp, const Names& names, const Values& position,
+                                    const Values& velocity) {
+    return decoder_.decode({stamp, names, position, velocity});
+  }
+
+  WheelDecoder decoder_{twoWheels()};
+};
+
+TEST_F(WheelDecoderTest, TakesVelocitiesByNameWithTheConfiguredSign) {
+  const auto sample = decode(5, {"arm", "right", "left"}, {}, {9.0, -2.0, 3.0});
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->stamp, 5);
+  EXPECT_EQ(sample->count, 2U);
+  EXPECT_EQ(sample->rate_radps[0], 3.0);
+  EXPECT_EQ(sample->rate_radps[1], 2.0);
+  EXPECT_EQ(decoder_.problem(), "");
+}
+
+TEST_F(WheelDecoderTest, FollowsJointsThatChangePlaces) {
+  decode(1, {"left", "right"}, {}, {1.0, -2.0});
+  const auto sample = decode(2, {"right", "left"}, {}, {-2.0, 1.0});
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->rate_radps[0], 1.0);
+  EXPECT_EQ(sample->rate_radps[1], 2.0);
+}
+
+TEST_F(WheelDecoderTest, TakesNamelessArraysInTheOrderOfTheConfiguration) {
+  const auto sample = decode(1, {}, {}, {1.0, -2.0, 7.0});
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->rate_radps[0], 1.0);
+  EXPECT_EQ(sample->rate_radps[1], 2.0);
+}
+
+TEST_F(WheelDecoderTest, DifferencesPositionsWhereThereAreNoVelocities) {
+  EXPECT_FALSE(decode(kSecond, {"left", "right"}, {1.0, 1.0}, {}));
+  EXPECT_EQ(decoder_.problem(), "");
+  const auto sample = decode(kSecond + kSecond / 10, {"left", "right"}, {1.5, 0.9}, {});
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->rate_radps[0], 5.0, 1e-12);
+  EXPECT_NEAR(sample->rate_radps[1], 1.0, 1e-12);
+}
+
+TEST_F(WheelDecoderTest, RepeatedPositionsGiveNoRate) {
+  decode(kSecond, {"left", "right"}, {1.0, 1.0}, {});
+  EXPECT_FALSE(decode(kSecond, {"left", "right"}, {1.0, 1.0}, {}));
+}
+
+TEST_F(WheelDecoderTest, NamesWhatIsWrong) {
+  EXPECT_FALSE(decode(1, {"left", "rihgt"}, {}, {1.0, 1.0}));
+  EXPECT_EQ(decoder_.problem(), "has no joint 'right'");
+  EXPECT_FALSE(decode(1, {"left", "right"}, {}, {1.0}));
+  EXPECT_EQ(decoder_.problem(), "has 1 values of velocity for 2 joints");
+  EXPECT_FALSE(decode(1, {}, {}, {1.0}));
+  EXPECT_EQ(decoder_.problem(), "has 1 values of velocity for 2 joints");
+  EXPECT_FALSE(decode(1, {"left", "right"}, {}, {1.0, std::numeric_limits<double>::quiet_NaN()}));
+  EXPECT_EQ(decoder_.problem(), "has a velocity of joint 'right' that is not a finite number");
+  EXPECT_FALSE(decode(1, {"left", "right"}, {}, {}));
+  EXPECT_EQ(decoder_.problem(), "has 0 values of position for 2 joints");
+}
+
+TEST_F(WheelDecoderTest, AMessageThatCannotBeUsedLeavesItAsItWas) {
+  decode(kSecond, {"left", "right"}, {1.0, 1.0}, {});
+  decode(2 * kSecond, {"left", "right"}, {std::numeric_limits<double>::infinity(), 1.0}, {});
+  decode(2 * kSecond, {"left"}, {1.0}, {});
+  const auto sample = decode(3 * kSecond, {"left", "right"}, {5.0, 1.0}, {});
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->rate_radps[0], 2.0, 1e-12);  // since the last good one, two seconds before
+}
+
+}  // namespace
+}  // namespace slipnav

@@ -1,0 +1,148 @@
+#include "slipnav/navigator/sample_merger.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace slipnav {
+namespace {
+
+constexpr Nanoseconds kMillisecond = 1'000'000;
+constexpr double kMaxWait_s = 1.0;
+
+ImuSample imuAt(Nanoseconds ms) {
+  ImuSample sample;
+  sample.stamp = ms * kMillisecond;
+  return sample;
+}
+
+WheelMotion wheelsAt(Nanoseconds ms) {
+  WheelMotion sample;
+  sample.stamp = ms * kMillisecond;
+  return sample;
+}
+
+PositionFix fixAt(Nanoseconds ms) {
+  PositionFix sample;
+  sample.stamp = ms * kMillisecond;
+  return sample;
+}
+
+/// "i20" for an IMU sample at 20 ms, w for wheels, f for fixes.
+std::string describe(const Sample& sample) {
+  return std::string(1, "iwf"[sample.index()]) + std::to_string(stampOf(sample) / kMillisecond);
+}
+
+class SampleMergerTest : public ::testing::Test {
+ protected:
+  std::string advance() {
+    std::string text;
+    merger_.advance([&text](const Sample& sample) { text += describe(sample) + " "; });
+    return text;
+  }
+  std::string flush() {
+    std::string text;
+    merger_.flush([&text](const Sample& sample) { text += describe(sample) + " "; });
+    return text;
+  }
+
+  SampleMerger merger_{kMaxWait_s};
+};
+
+TEST_F(SampleMergerTest, WaitsUntilEverySensorHasGonePast) {
+  merger_.push(imuAt(2000));
+  merger_.push(imuAt(2020));
+  EXPECT_EQ(advance(), "");
+  merger_.push(wheelsAt(2010));
+  EXPECT_EQ(advance(), "");
+  merger_.push(fixAt(2015));
+  EXPECT_EQ(advance(), "i2000 w2010 ");
+  merger_.push(wheelsAt(2110));
+  EXPECT_EQ(advance(), "f2015 ");
+}
+
+TEST_F(SampleMergerTest, OfEqualStampsTheImuIsLast) {
+  merger_.push(imuAt(2000));
+  merger_.push(wheelsAt(2000));
+  merger_.push(fixAt(2000));
+  EXPECT_EQ(advance(), "f2000 w2000 i2000 ");
+}
+
+TEST_F(SampleMergerTest, DoesNotWaitForASensorThatIsSilentForLong) {
+  merger_.push(imuAt(2000));
+  merger_.push(imuAt(2999));
+  EXPECT_EQ(advance(), "");
+  merger_.push(imuAt(3000));
+  EXPECT_EQ(advance(), "i2000 ");
+}
+
+TEST_F(SampleMergerTest, SilenceIsJudgedByTrustedStampsAlone) {
+  merger_.push(imuAt(2000));
+  merger_.push(imuAt(4000));
+  std::string text;
+  const auto note = [&text](const Sample& sample) { text += describe(sample); };
+  merger_.advanceTrusting(2999 * kMillisecond, note);
+  EXPECT_EQ(text, "");
+  merger_.advanceTrusting(3000 * kMillisecond, note);
+  EXPECT_EQ(text, "i2000");
+}
+
+TEST_F(SampleMergerTest, KeepsTheOrderWithinASensor) {
+  merger_.push(imuAt(2020));
+  merger_.push(imuAt(2000));
+  merger_.push(imuAt(2040));
+  EXPECT_EQ(flush(), "i2020 i2000 i2040 ");
+}
+
+TEST_F(SampleMergerTest, WhatFollowsARestartComesAfterTheRest) {
+  merger_.push(wheelsAt(5000));
+  merger_.push(imuAt(5000));
+  merger_.push(imuAt(10));
+  merger_.push(wheelsAt(20));
+  merger_.push(imuAt(30));
+  merger_.push(wheelsAt(120));
+  EXPECT_EQ(flush(), "w5000 i5000 i10 w20 i30 w120 ");
+}
+
+TEST_F(SampleMergerTest, ArrivalOrderDoesNotMatter) {
+  const auto merged = [](unsigned seed) {
+    std::vector<std::vector<Sample>> sensors(3);
+    for (Nanoseconds ms = 1000; ms < 4000; ms += 20) {
+      sensors[0].push_back(imuAt(ms));
+      if (ms % 100 == 0) {
+        sensors[1].push_back(wheelsAt(ms + 7));
+        sensors[2].push_back(fixAt(ms));
+      }
+    }
+    std::mt19937 random(seed);
+    SampleMerger merger(kMaxWait_s);
+    std::string text;
+    const auto note = [&text](const Sample& sample) { text += describe(sample) + " "; };
+    std::vector<std::size_t> next(3, 0);
+    // Any sensor may be ahead of the others, by less than what counts as silence.
+    while (next[0] < sensors[0].size() || next[1] < sensors[1].size() || next[2] < sensors[2].size()) {
+      const std::size_t chosen = random() % 3;
+      const auto stampOfNext = [&](std::size_t i) {
+        return next[i] < sensors[i].size() ? stampOf(sensors[i][next[i]]) : 5000 * kMillisecond;
+      };
+      const Nanoseconds slowest = std::min({stampOfNext(0), stampOfNext(1), stampOfNext(2)});
+      if (next[chosen] < sensors[chosen].size() && stampOfNext(chosen) - slowest < 900 * kMillisecond) {
+        merger.push(sensors[chosen][next[chosen]++]);
+        merger.advance(note);
+      }
+    }
+    merger.flush(note);
+    return text;
+  };
+  const std::string expected = merged(1);
+  EXPECT_EQ(std::count(expected.begin(), expected.end(), ' '), 210);
+  for (unsigned seed = 2; seed < 20; ++seed) {
+    EXPECT_EQ(merged(seed), expected) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace slipnav
