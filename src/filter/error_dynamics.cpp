@@ -61,6 +61,8 @@ void VehicleModelParams::visit(ParameterVisitor& v) {
   v.number("slow_slip_time_s", slow_slip_time_s, {1e-2, 1e5}, "time constant of the persistent slip [s]");
   v.number("fast_slip_std", fast_slip_std, {0.0, 1.0}, "1σ of the slip ratio that changes within seconds");
   v.number("fast_slip_time_s", fast_slip_time_s, {1e-2, 1e5}, "time constant of the fast slip [s]");
+  v.number("slip_impulse_std", slip_impulse_std, {0.0, 1.0},
+           "1σ of the slip ratio after a wheel speed that the filter rejects: a wheel has lost its grip");
   v.number("side_slip_std_deg", side_slip_std_deg, {0.0, 45.0}, "1σ of the side-slip angle [°]");
   v.number("side_slip_time_s", side_slip_time_s, {1e-2, 1e5}, "time constant of the side slip [s]");
   v.number("mount_pitch_std_deg", mount_pitch_std_deg, {0.0, 10.0}, "1σ of the IMU's mounting error in pitch [°]");
@@ -80,6 +82,7 @@ ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, co
     : planet_(planet),
       prior_variance_(ErrorVector::Zero()),
       spectral_density_(ErrorVector::Zero()),
+      slip_impulse_variance_(square(vehicle.slip_impulse_std)),
       decay_rate_(ErrorVector::Zero()) {
   prior_variance_.segment<3>(kAccelBias).setConstant(square(imu.accel_bias_std_ug * kMicroG));
   prior_variance_.segment<3>(kGyroBias).setConstant(square(degPerHourToRadps(imu.gyro_bias_std_deg_per_h)));
@@ -180,6 +183,12 @@ void ErrorDynamics::propagate(const ErrorTransition& t, ErrorCovariance& P) {
   P.bottomLeftCorner<kErrorStates - 9, 9>() = P.topRightCorner<9, kErrorStates - 9>().transpose();
   P.bottomRightCorner<kErrorStates - 9, kErrorStates - 9>().array() *= (t.decay * t.decay.transpose()).array();
   P.diagonal() += 0.5 * t.noise;
+}
+
+void ErrorDynamics::loosenFastSlip(ErrorCovariance& P) const {
+  P.row(kFastSlip).setZero();
+  P.col(kFastSlip).setZero();
+  P(kFastSlip, kFastSlip) = slip_impulse_variance_;
 }
 
 void ErrorDynamics::decay(const ErrorTransition& t, VehicleState& vehicle) {

@@ -6,6 +6,8 @@
 namespace slipnav {
 namespace {
 
+/// Weight of the newest sample in the recent wheel speed.
+constexpr double kRecentSpeedGain = 0.3;
 constexpr std::size_t kMaxWaiting = 4096;  // wheel samples kept while there is no initial state yet
 
 template <class Sample>
@@ -60,6 +62,7 @@ void FilterEngine::initialise(const InitialState& initial) {
     tremor_.setVariance(initial.tremor_variance);
   }
   average_.restart(0);
+  recent_wheel_speed_mps_ = 0.0;
   steps_.clear();
   // A wheel interval that began before the initial state is not known in full and goes unused.
   while (!wheels_.empty() && wheels_.front().stamp <= initial.nav.stamp) {
@@ -181,6 +184,7 @@ bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
       corrected = applyWheelSample(wheels, *motion) || corrected;
     }
     average_.restart(wheels.stamp);
+    recent_wheel_speed_mps_ += kRecentSpeedGain * (wheels.motion.forward_mps - recent_wheel_speed_mps_);
   }
   if (average_.start() != 0) {
     average_.add(step, corrected ? referenceVelocity(step) : v_mean_b, average_.start(), step.state.stamp);
@@ -198,7 +202,11 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
     tremor_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
   }
   const std::uint64_t zero_updates = update_.status(kZeroVelocity).accepted;
+  const std::uint64_t wheel_rejections = update_.status(kForwardSpeed).rejected;
   const bool corrected = update(at_rest ? restingMeasurements(motion) : movingMeasurements(wheels, motion));
+  if (update_.status(kForwardSpeed).rejected > wheel_rejections) {
+    dynamics_.loosenFastSlip(P_);
+  }
   estimate_.stationary = at_rest && (!use_zupt_ || update_.status(kZeroVelocity).accepted > zero_updates);
   return corrected;
 }
@@ -207,7 +215,7 @@ MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const
   const Vector3& lever_b = setup_.lever_imu_to_reference_b;
   MeasurementSet set;
   if (use_wheel_) {
-    set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, motion, state_, vehicle_,
+    set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, recent_wheel_speed_mps_, motion, state_, vehicle_,
                                                    lever_b));
     if (wheels.motion.has_yaw_rate) {
       set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheels.motion.yaw_rate_radps, motion));

@@ -1,12 +1,7 @@
 #include "slipnav/measurement/wheel_odometry.h"
 
-#include <algorithm>
-
 namespace slipnav {
 namespace {
-
-/// The linearisation stays away from wheels that spin on the spot.
-constexpr double kLeastGrip = 0.1;
 
 double square(double x) { return x * x; }
 
@@ -26,19 +21,17 @@ void WheelOdometryParams::visit(ParameterVisitor& v) {
            "how much wider than the geometric track the wheels act in a turn");
 }
 
-Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps, double slipping_speed_mps,
                                     const BodyMotion& motion, const NavigationState& state,
                                     const VehicleState& vehicle, const Vector3& lever_b) {
   const double slip = vehicle.wheel_scale + vehicle.slow_slip + vehicle.fast_slip;
-  const double grip = std::max(1.0 - slip, kLeastGrip);
-  const double predicted_mps = motion.v_eb_b.x() / grip;
   Measurement m(1);
-  m.residual(0) = wheel_speed_mps - predicted_mps;
-  m.H = bodyVelocityJacobian(state, lever_b).row(0) / grip;
-  m.H(0, kWheelScale) = predicted_mps / grip;
-  m.H(0, kSlowSlip) = predicted_mps / grip;
-  m.H(0, kFastSlip) = predicted_mps / grip;
-  m.variance(0) = square(params.speed_std_mps) + square(params.slip_noise_std * predicted_mps);
+  m.residual(0) = wheel_speed_mps - (motion.v_eb_b.x() + slipping_speed_mps * slip);
+  m.H = bodyVelocityJacobian(state, lever_b).row(0);
+  m.H(0, kWheelScale) = slipping_speed_mps;
+  m.H(0, kSlowSlip) = slipping_speed_mps;
+  m.H(0, kFastSlip) = slipping_speed_mps;
+  m.variance(0) = square(params.speed_std_mps) + square(params.slip_noise_std * slipping_speed_mps);
   return m;
 }
 

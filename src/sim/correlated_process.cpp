@@ -23,17 +23,29 @@ CorrelatedProcess::CorrelatedProcess(std::uint64_t seed, std::string_view purpos
       scale_(1.0 / splineSigma(persistence_)),
       grid_{stream_.normal()} {}
 
-double CorrelatedProcess::at(double travel_m) {
+CorrelatedProcess::Cell CorrelatedProcess::cellOf(double travel_m) {
   const double cell = std::floor(travel_m / spacing_m_);
   const auto first = static_cast<std::size_t>(cell);
   while (grid_.size() < first + 4) {
     grid_.push_back(persistence_ * grid_.back() + std::sqrt(1.0 - persistence_ * persistence_) * stream_.normal());
   }
-  const double t = travel_m / spacing_m_ - cell;
+  return {first, travel_m / spacing_m_ - cell};
+}
+
+double CorrelatedProcess::at(double travel_m) {
+  const auto [first, t] = cellOf(travel_m);
   const double r = 1.0 - t;
   const double sum = r * r * r * grid_[first] + (3.0 * t * t * t - 6.0 * t * t + 4.0) * grid_[first + 1] +
                      (3.0 * r * r * r - 6.0 * r * r + 4.0) * grid_[first + 2] + t * t * t * grid_[first + 3];
   return scale_ * sum / 6.0;
+}
+
+double CorrelatedProcess::slopeAt(double travel_m) {
+  const auto [first, t] = cellOf(travel_m);
+  const double r = 1.0 - t;
+  const double sum = -r * r * grid_[first] + (3.0 * t * t - 4.0 * t) * grid_[first + 1] -
+                     (3.0 * r * r - 4.0 * r) * grid_[first + 2] + t * t * grid_[first + 3];
+  return scale_ * sum / (2.0 * spacing_m_);
 }
 
 }  // namespace slipnav::sim

@@ -18,6 +18,9 @@ GroundParams paved() {
   g.slip.wheel_scatter = 0.003;
   g.slip.side_slip_deg = 0.1;
   g.slip.side_slip_per_slope = 0.02;
+  g.slip.sway_m = 0.0001;
+  g.slip.heave_m = 0.0002;
+  g.slip.turn_centre_m = 0.005;
   g.slip.track_factor = 1.5;
   g.slip.track_factor_spread = 0.02;
   g.vibration_mps2 = 0.15;
@@ -41,6 +44,9 @@ GroundParams unpaved() {
   g.slip.impulse_max = 0.35;
   g.slip.side_slip_deg = 0.3;
   g.slip.side_slip_per_slope = 0.05;
+  g.slip.sway_m = 0.0005;
+  g.slip.heave_m = 0.0008;
+  g.slip.turn_centre_m = 0.01;
   g.slip.track_factor = 1.45;
   g.slip.track_factor_spread = 0.04;
   g.vibration_mps2 = 0.3;
@@ -64,6 +70,9 @@ GroundParams gravel() {
   g.slip.impulse_max = 0.5;
   g.slip.side_slip_deg = 0.7;
   g.slip.side_slip_per_slope = 0.12;
+  g.slip.sway_m = 0.001;
+  g.slip.heave_m = 0.0012;
+  g.slip.turn_centre_m = 0.02;
   g.slip.track_factor = 1.4;
   g.slip.track_factor_spread = 0.06;
   g.vibration_mps2 = 0.5;
@@ -87,6 +96,9 @@ GroundParams rough() {
   g.slip.impulse_max = 0.85;
   g.slip.side_slip_deg = 1.2;
   g.slip.side_slip_per_slope = 0.2;
+  g.slip.sway_m = 0.0015;
+  g.slip.heave_m = 0.002;
+  g.slip.turn_centre_m = 0.03;
   g.slip.track_factor = 1.35;
   g.slip.track_factor_spread = 0.08;
   g.vibration_mps2 = 0.4;

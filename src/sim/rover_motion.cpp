@@ -93,7 +93,7 @@ void RoverMotion::moveBody(const SurfacePoint& surface, const Slippage& slippage
   const double right_mps = radius_right * (forward_.speed() - difference_.speed()) * (1.0 - slippage.right);
   const double forward_mps = 0.5 * (left_mps + right_mps);
   const double yaw_rate_radps = (left_mps - right_mps) / (slippage.track_factor * vehicle_.track_m);
-  state_.v_eb_b << forward_mps, std::abs(forward_mps) * slippage.lateral, 0.0;
+  state_.v_eb_b << forward_mps, std::abs(forward_mps) * slippage.lateral - slippage.turn_centre_m * yaw_rate_radps, 0.0;
   state_.v_eb_enu = state_.C_b_to_enu * state_.v_eb_b;
   state_.slip_angle_rad = forward_mps == 0.0 ? 0.0 : std::atan2(state_.v_eb_b.y(), state_.v_eb_b.x());
 
@@ -113,6 +113,14 @@ void RoverMotion::moveBody(const SurfacePoint& surface, const Slippage& slippage
   rate_.segment<2>(kEast) = state_.v_eb_enu.head<2>();
   rate_[kTravel] = std::abs(forward_.speed());
   rate_[kDistance] = state_.v_eb_enu.norm();
+  addHeave(slippage);
+}
+
+/// Stones under single wheels lift the body off the smooth relief and let it down again.
+void RoverMotion::addHeave(const Slippage& slippage) {
+  state_.position_enu_m.z() += slippage.heave_m;
+  state_.v_eb_enu.z() += slippage.heave_slope * rate_[kTravel];
+  state_.v_eb_b = state_.C_b_to_enu.transpose() * state_.v_eb_enu;
 }
 
 void RoverMotion::turnWheels(const Slippage& slippage, double yaw_rate_radps) {

@@ -13,6 +13,7 @@ constexpr double kSlowCorrelation_m = 12.0;  // 15 s at 0.8 m/s
 constexpr double kWheelCorrelation_m = 0.5;
 constexpr double kLateralCorrelation_m = 6.0;
 constexpr double kTrackCorrelation_m = 4.0;
+constexpr double kStoneCorrelation_m = 0.3;  // of sway and heave
 /// Part of the fast slip's variance that both sides share.
 constexpr double kSharedFast = 0.7;
 
@@ -50,6 +51,9 @@ SlipModel::SlipModel(const SlipParams& params, std::uint64_t seed)
       slow_both_(seed, "slip slow both", kSlowCorrelation_m),
       lateral_(seed, "side slip", kLateralCorrelation_m),
       track_(seed, "track factor", kTrackCorrelation_m),
+      sway_(seed, "sway", kStoneCorrelation_m),
+      heave_(seed, "heave", kStoneCorrelation_m),
+      turn_centre_(seed, "turn centre", kTrackCorrelation_m),
       wheel_(wheelProcesses(seed)),
       impulse_stream_(seed, "slip impulses"),
       next_impulse_m_(0.0) {
@@ -105,7 +109,11 @@ Slippage SlipModel::at(const Footing& footing) {
   slippage.left = footing.looseness * limited(slippage.left + both + side * fast_left_.at(travel_m));
   slippage.right = footing.looseness * limited(slippage.right + both + side * fast_right_.at(travel_m));
   slippage.lateral = footing.looseness * std::tan(degToRad(params_.side_slip_deg) * lateral_.at(travel_m) +
-                                                  params_.side_slip_per_slope * footing.sin_cross);
+                                                  params_.side_slip_per_slope * footing.sin_cross) +
+                     footing.looseness * params_.sway_m * sway_.slopeAt(travel_m);
+  slippage.turn_centre_m = footing.looseness * params_.turn_centre_m * turn_centre_.at(travel_m);
+  slippage.heave_m = params_.heave_m * heave_.at(travel_m);
+  slippage.heave_slope = params_.heave_m * heave_.slopeAt(travel_m);
   slippage.track_factor = params_.track_factor + params_.track_factor_spread * track_.at(travel_m);
   for (std::size_t i = 0; i < kWheelCount; ++i) {
     slippage.spin_up[i] = footing.looseness * (slippage.spin_up[i] + params_.wheel_scatter * wheel_[i].at(travel_m));

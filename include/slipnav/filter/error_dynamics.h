@@ -23,9 +23,10 @@ struct ImuNoiseParams {
 struct VehicleModelParams {
   double wheel_scale_std = 0.01;
   double slow_slip_std = 0.10;
-  double slow_slip_time_s = 60.0;
-  double fast_slip_std = 0.07;
-  double fast_slip_time_s = 1.0;
+  double slow_slip_time_s = 30.0;
+  double fast_slip_std = 0.032;
+  double fast_slip_time_s = 1.5;
+  double slip_impulse_std = 1.0;
   double side_slip_std_deg = 2.0;
   double side_slip_time_s = 10.0;
   double mount_pitch_std_deg = 0.3;
@@ -64,6 +65,9 @@ class ErrorDynamics {
   /// Lets the estimates of Gauss–Markov states fade as the transition says.
   static void decay(const ErrorTransition& transition, VehicleState& vehicle);
 
+  /// Forgets the fast slip: nothing is known of it but that it has jumped, by the deviation of an impulse.
+  void loosenFastSlip(ErrorCovariance& P) const;
+
   /// Density of the gyros' white noise [rad²/s].
   double gyroNoiseDensity() const { return spectral_density_(kAttitude); }
 
@@ -74,6 +78,7 @@ class ErrorDynamics {
   Planet planet_;
   ErrorVector prior_variance_;
   ErrorVector spectral_density_;  ///< continuous, one-sided in time: variance per second
+  double slip_impulse_variance_;
   ErrorVector decay_rate_;        ///< 1/s, zero for constants and random walks
 };
 

@@ -13,19 +13,22 @@ namespace slipnav {
 struct WheelOdometryParams {
   std::string source = "auto";
   double stamp_delay_s = 0.0;
-  double speed_std_mps = 0.01;
-  double slip_noise_std = 0.03;
-  double yaw_rate_std_deg_per_s = 3.0;
+  double speed_std_mps = 0.002;
+  double slip_noise_std = 0.006;
+  double yaw_rate_std_deg_per_s = 3.3;
   double yaw_rate_scale_std = 0.3;
   double scrub_factor = 1.0;
   void visit(ParameterVisitor& v);
 };
 
-/// Forward speed: u = v_x / (1 − κ − s_slow − s_fast), with u the mean circumferential speed of the wheels. Slip acts on
-/// the predicted speed, not on the measured one: noise of u would otherwise look like slip (errors in variables).
+/// Forward speed: u = v_x + ū (κ + s_slow + s_fast), with u the mean circumferential speed of the wheels and ū what it
+/// was just before. The slip ratio is defined by u itself, so ū ≈ u; but were it u, noise of u would look like slip
+/// (errors in variables), and were it a product of estimated states, the direction in which speed and slip cannot be
+/// told apart would turn with every update and the filter would believe that it knows them.
 /// @param motion means over the odometry interval; @param lever_b IMU to reference point
-Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps, const BodyMotion& motion,
-                                    const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b);
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps, double slipping_speed_mps,
+                                    const BodyMotion& motion, const NavigationState& state,
+                                    const VehicleState& vehicle, const Vector3& lever_b);
 
 /// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z.
 Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps,

@@ -16,8 +16,17 @@ class CorrelatedProcess {
 
   /// @param travel_m not negative
   double at(double travel_m);
+  /// Derivative of at() by the travel [1/m].
+  double slopeAt(double travel_m);
 
  private:
+  /// Grid cell of a travel, with its four control values drawn, and the place inside it in [0, 1).
+  struct Cell {
+    std::size_t first;
+    double part;
+  };
+  Cell cellOf(double travel_m);
+
   RandomStream stream_;
   double spacing_m_;
   double persistence_;  ///< correlation of neighbouring grid values

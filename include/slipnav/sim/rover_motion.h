@@ -55,6 +55,7 @@ class RoverMotion {
   void evaluate();
   void setAttitude(const SurfacePoint& surface);
   void moveBody(const SurfacePoint& surface, const Slippage& slippage);
+  void addHeave(const Slippage& slippage);
   void turnWheels(const Slippage& slippage, double yaw_rate_radps);
 
   VehicleParams vehicle_;

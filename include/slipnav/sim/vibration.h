@@ -8,7 +8,8 @@
 namespace slipnav::sim {
 
 /// At the end of each IMU interval the body is off its smooth motion by a random velocity and a random attitude, in
-/// proportion to the speed; the IMU senses how these change. They are real motion and part of the truth.
+/// proportion to the speed; a tremor of the velocity is left at rest. The IMU senses how these change. They are real
+/// motion and part of the truth.
 class Vibration {
  public:
   /// @param factor on the ground's vibration
@@ -26,6 +27,7 @@ class Vibration {
  private:
   double velocity_sigma_;  ///< at kVibrationSpeed_mps
   double angle_sigma_;
+  double tremor_;
   RandomStream stream_;
   Vector3 velocity_b_ = Vector3::Zero();
   Vector3 angle_b_ = Vector3::Zero();
