@@ -35,7 +35,7 @@ using AttitudeFunction = std::function<AttitudeMotion(double t_s)>;
 /// Roll, pitch and yaw as waves.
 AttitudeFunction eulerAttitude(const Wave& roll, const Wave& pitch, const Wave& yaw);
 
-/// The body's z axis runs around a cone of half-angle `angle_rad` without turning about itself (Groves 5.84 ff.):
+/// The body's z axis runs around a cone of half-angle `angle_rad` without turning about itself:
 /// rotation vector angle·(cos ωt, sin ωt, 0).
 AttitudeFunction coningAttitude(double angle_rad, double frequency_radps);
 

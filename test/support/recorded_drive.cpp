@@ -66,14 +66,16 @@ EstimateLog runNavigator(const Config& config, const InitialState& initial, cons
   EstimateLog log;
   const auto sink = [&log](const Estimate& estimate, const ErrorCovariance& P) { log.push_back({estimate, P}); };
   navigator.initialise(initial);
+  Nanoseconds newest = 0;
   for (const DriveSample& sample : samples) {
+    newest = std::max(newest, sample.stamp());
     if (sample.is_imu) {
       navigator.push(sample.imu, sink);
     } else {
       navigator.push(sample.wheels, sink);
     }
   }
-  navigator.completeUpTo(samples.back().stamp(), sink);
+  navigator.completeUpTo(newest, sink);
   return log;
 }
 

@@ -12,6 +12,7 @@
 #include "slipnav/measurement/position_fix.h"
 #include "slipnav/measurement/wheel_odometry.h"
 #include "slipnav/measurement/zero_motion.h"
+#include "wheel_speed.h"
 
 namespace slipnav::test {
 namespace {
@@ -75,7 +76,7 @@ void expectJacobian(const std::string& name, const Model& model, const std::vect
 
 TEST(MeasurementJacobian, ForwardSpeed) {
   const Model model = [](const Point& p) {
-    return forwardSpeedMeasurement({}, 0.9, motionOf(p), p.nav, p.vehicle, p.lever_b);
+    return steadyWheelSpeed({}, 0.9, motionOf(p), p.nav, p.vehicle, p.lever_b);
   };
   expectJacobian("forward speed", model, {kWheelScale, kSlowSlip, kFastSlip});
   sim::RandomStream random(2, "columns");
@@ -154,8 +155,7 @@ TEST(MeasurementResidual, IsZeroAtTheTruth) {
     const Vector3 v_b(v_x, (p.vehicle.side_slip - p.vehicle.mount_yaw_rad) * v_x, p.vehicle.mount_pitch_rad * v_x);
     const BodyMotion motion{0.1, v_b, p.measured_rate_b - p.nav.gyro_bias_b};
     const double slip = p.vehicle.wheel_scale + p.vehicle.slow_slip + p.vehicle.fast_slip;
-    EXPECT_NEAR(forwardSpeedMeasurement({}, v_x / (1.0 - slip), motion, p.nav, p.vehicle, p.lever_b).residual(0), 0.0,
-                1e-15);
+    EXPECT_NEAR(steadyWheelSpeed({}, v_x / (1.0 - slip), motion, p.nav, p.vehicle, p.lever_b).residual(0), 0.0, 1e-15);
     EXPECT_NEAR(lateralMeasurement({}, motion, p.nav, p.vehicle, p.lever_b).residual(0), 0.0, 1e-15);
     EXPECT_NEAR(verticalMeasurement({}, motion, p.nav, p.vehicle, p.lever_b).residual(0), 0.0, 1e-15);
     EXPECT_NEAR(yawRateMeasurement({}, motion.omega_ib_b.z(), motion).residual(0), 0.0, 1e-15);

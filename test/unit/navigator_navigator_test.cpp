@@ -1,0 +1,208 @@
+/// The filter's answer depends on stamps, not on the order of arrival; and it survives whatever the sensors do.
+
+#include "slipnav/navigator/navigator.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+#include "recorded_drive.h"
+#include "slipnav/sim/random.h"
+
+namespace slipnav::test {
+namespace {
+
+const Config& config() {
+  static const Config config = driveConfig(12.0);
+  return config;
+}
+
+const RecordedDrive& drive() {
+  static const RecordedDrive drive = recordDrive(config());
+  return drive;
+}
+
+const EstimateLog& sequentialRun() {
+  static const EstimateLog log = runNavigator(config(), drive().initial, drive().samples);
+  return log;
+}
+
+/// Samples of each sensor stay in their own order; wheels arrive up to `lag_s` later than their stamps say.
+std::vector<DriveSample> withLateWheels(double lag_s, bool random_lag) {
+  sim::RandomStream random(1, "lag");
+  std::vector<std::pair<Nanoseconds, DriveSample>> arrivals;
+  Nanoseconds newest_wheels = 0;
+  for (const DriveSample& sample : drive().samples) {
+    const double lag = sample.is_imu ? 0.0 : lag_s * (random_lag ? random.uniform() : 1.0);
+    Nanoseconds arrival = sample.stamp() + fromSeconds(lag);
+    if (!sample.is_imu) {
+      newest_wheels = arrival = std::max(arrival, newest_wheels);
+    }
+    arrivals.emplace_back(arrival, sample);
+  }
+  std::stable_sort(arrivals.begin(), arrivals.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<DriveSample> result;
+  result.reserve(arrivals.size());
+  for (const auto& [arrival, sample] : arrivals) {
+    result.push_back(sample);
+  }
+  return result;
+}
+
+bool isFiniteEstimate(const LoggedEstimate& logged) { return isFinite(logged.estimate.nav) && logged.P.allFinite(); }
+
+TEST(Navigator, TheDriveUsesEveryKindOfMeasurement) {
+  const bool stood = std::any_of(sequentialRun().begin(), sequentialRun().end(),
+                                 [](const LoggedEstimate& l) { return l.estimate.stationary; });
+  const bool moved = std::any_of(sequentialRun().begin(), sequentialRun().end(),
+                                 [](const LoggedEstimate& l) { return l.estimate.wheels.motion.forward_mps > 0.5; });
+  EXPECT_TRUE(stood);
+  EXPECT_TRUE(moved);
+  EXPECT_GT(sequentialRun().size(), 1000U);
+  EXPECT_TRUE(std::all_of(sequentialRun().begin(), sequentialRun().end(), isFiniteEstimate));
+}
+
+TEST(Navigator, LateWheelsMakeNoDifference) {
+  for (const double lag_s : {0.05, 0.5, 0.95}) {
+    EXPECT_TRUE(sameEstimates(runNavigator(config(), drive().initial, withLateWheels(lag_s, false)), sequentialRun()))
+        << lag_s;
+  }
+}
+
+TEST(Navigator, RandomInterleavingMakesNoDifference) {
+  EXPECT_TRUE(sameEstimates(runNavigator(config(), drive().initial, withLateWheels(0.9, true)), sequentialRun()));
+}
+
+TEST(Navigator, EarlyWheelsMakeNoDifference) {
+  EXPECT_TRUE(sameEstimates(runNavigator(config(), drive().initial, withLateWheels(-0.9, true)), sequentialRun()));
+}
+
+TEST(Navigator, ComparisonSeesTheLastBit) {
+  std::vector<DriveSample> changed = drive().samples;
+  const auto wheels = std::find_if(changed.begin() + static_cast<std::ptrdiff_t>(changed.size() / 2), changed.end(),
+                                   [](const DriveSample& s) { return !s.is_imu; });
+  wheels->wheels.motion.forward_mps += 1e-9;
+  EXPECT_FALSE(sameEstimates(runNavigator(config(), drive().initial, changed), sequentialRun()));
+}
+
+TEST(Navigator, WheelsLaterThanTheWaitAreRefused) {
+  const NavigationSetup setup = config().navigation();
+  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
+  navigator.initialise(drive().initial);
+  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  const double lag_s = setup.filter.filter.max_wait_s + 0.5;
+  const Nanoseconds end = drive().samples.back().stamp() - fromSeconds(lag_s);
+  int refused = 0;
+  for (const DriveSample& sample : withLateWheels(lag_s, false)) {
+    if (sample.is_imu) {
+      navigator.push(sample.imu, ignore);
+    } else if (sample.stamp() > drive().initial.nav.stamp && sample.stamp() < end) {
+      ASSERT_FALSE(navigator.push(sample.wheels, ignore));
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(Navigator, BadWheelsAreRefused) {
+  const NavigationSetup setup = config().navigation();
+  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
+  navigator.initialise(drive().initial);
+  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  WheelMotion wheels;
+  wheels.stamp = drive().initial.nav.stamp + fromSeconds(0.1);
+  WheelMotion bad = wheels;
+  bad.motion.forward_mps = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(navigator.push(bad, ignore));
+  bad = wheels;
+  bad.motion.yaw_rate_radps = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(navigator.push(bad, ignore));
+  EXPECT_TRUE(navigator.push(wheels, ignore));
+  EXPECT_FALSE(navigator.push(wheels, ignore));  // repeated
+  bad = wheels;
+  bad.stamp = drive().initial.nav.stamp;
+  EXPECT_FALSE(navigator.push(bad, ignore));  // before the start
+}
+
+TEST(Navigator, RepeatedSamplesMakeNoDifference) {
+  std::vector<DriveSample> twice;
+  for (const DriveSample& sample : drive().samples) {
+    twice.insert(twice.end(), 2, sample);
+  }
+  EXPECT_TRUE(sameEstimates(runNavigator(config(), drive().initial, twice), sequentialRun()));
+}
+
+/// Without wheels the estimate goes on, less and less sure of itself.
+TEST(Navigator, GoesOnThroughAWheelOutage) {
+  const Nanoseconds start = drive().initial.nav.stamp;
+  std::vector<DriveSample> samples;
+  for (const DriveSample& sample : drive().samples) {
+    const double t_s = toSeconds(sample.stamp() - start);
+    if (sample.is_imu || t_s < 10.0 || t_s > 18.0) {
+      samples.push_back(sample);
+    }
+  }
+  const EstimateLog log = runNavigator(config(), drive().initial, samples);
+  ASSERT_EQ(log.size(), sequentialRun().size());
+  EXPECT_TRUE(std::all_of(log.begin(), log.end(), isFiniteEstimate));
+  const auto sigmaAt = [&](double t_s) {
+    const auto it = std::find_if(log.begin(), log.end(), [&](const LoggedEstimate& l) {
+      return toSeconds(l.estimate.nav.stamp - start) >= t_s;
+    });
+    return std::sqrt(it->P(kPosition, kPosition));
+  };
+  EXPECT_GT(sigmaAt(17.9), 2.0 * sigmaAt(10.0));
+  EXPECT_GT(sigmaAt(14.0), sigmaAt(12.0));
+  for (const LoggedEstimate& logged : log) {
+    const double t_s = toSeconds(logged.estimate.nav.stamp - start);
+    EXPECT_FALSE(logged.estimate.stationary && t_s > 11.5 && t_s < 18.0);
+  }
+}
+
+/// A gap in the IMU makes the estimate unsure by what the vehicle may have done in it.
+TEST(Navigator, AGapInTheImuInflatesTheCovariance) {
+  const Nanoseconds start = drive().initial.nav.stamp;
+  Config free_inertial = config();
+  free_inertial.filter.updates = {};
+  free_inertial.filter.gap_rate_std_deg_per_s = 8.0;
+  free_inertial.filter.gap_accel_std_mps2 = 0.4;
+  std::vector<DriveSample> samples;
+  for (const DriveSample& sample : drive().samples) {
+    const double t_s = toSeconds(sample.stamp() - start);
+    if (sample.is_imu && (t_s < 10.0 || t_s >= 10.5)) {
+      samples.push_back(sample);
+    }
+  }
+  const EstimateLog log = runNavigator(free_inertial, drive().initial, samples);
+  const auto after = std::find_if(
+      log.begin(), log.end(), [&](const LoggedEstimate& l) { return toSeconds(l.estimate.nav.stamp - start) >= 10.4; });
+  ASSERT_NE(after, log.end());
+  const double gap_s = toSeconds(after->estimate.nav.stamp - std::prev(after)->estimate.nav.stamp) - 0.02;
+  EXPECT_GT(gap_s, 0.4);
+  const auto growth = [&](int index) { return std::sqrt(after->P(index, index) - std::prev(after)->P(index, index)); };
+  EXPECT_NEAR(growth(kAttitude + 2), degToRad(8.0) * gap_s, 0.02 * degToRad(8.0) * gap_s);
+  EXPECT_GT(growth(kVelocity + 2), 0.4 * gap_s);
+  EXPECT_GT(growth(kPosition), 0.5 * 0.4 * gap_s * gap_s);
+}
+
+TEST(Navigator, FreeInertialDoesNotWaitForWheels) {
+  Config free_inertial = config();
+  free_inertial.filter.updates = {};
+  const NavigationSetup setup = free_inertial.navigation();
+  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
+  navigator.initialise(drive().initial);
+  Nanoseconds told = 0;
+  for (const DriveSample& sample : drive().samples) {
+    if (sample.is_imu) {
+      navigator.push(sample.imu, [&told](const Estimate& e, const ErrorCovariance&) { told = e.nav.stamp; });
+      ASSERT_TRUE(told == sample.stamp() || sample.stamp() <= drive().initial.nav.stamp);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace slipnav::test
