@@ -1,0 +1,41 @@
+/// roslaunch understands every launch file, with the arguments that users give.
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "slipnav/ros/child_process.h"
+
+namespace slipnav {
+namespace {
+
+/// Exit status of a dry run that reads everything and starts nothing.
+int roslaunchStatus(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {"roslaunch", "--nodes", "slipnav"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return ChildProcess(command).wait();
+}
+
+TEST(LaunchFiles, AreUnderstood) {
+  EXPECT_EQ(roslaunchStatus({"nodelets.launch"}), 0);
+  EXPECT_EQ(roslaunchStatus({"rover.launch", "namespace:=/rover", "rviz:=true"}), 0);
+  EXPECT_EQ(roslaunchStatus({"replay.launch", "bag:=drive.bag", "config:=default,husky_mocap", "out:=somewhere",
+                             "report:=true", "truth:=truth/fix", "options:=--set planet=mars"}),
+            0);
+}
+
+TEST(LaunchFiles, AWrongConfigurationIsAnError) {
+  EXPECT_NE(roslaunchStatus({"nodelets.launch", "config:=nonsense"}), 0);
+  EXPECT_NE(roslaunchStatus({"nodelets.launch", "options:=--set planet=pluto"}), 0);
+}
+
+}  // namespace
+}  // namespace slipnav
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "launch_files");
+  return RUN_ALL_TESTS();
+}

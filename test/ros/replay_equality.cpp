@@ -1,0 +1,131 @@
+/// What the nodelets make of a recording, played fast, against the offline run: the same numbers to the last bit.
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/JointState.h>
+
+#include <limits>
+
+#include "ros/simulated_bag.h"
+#include "slipnav/ros/bag_evaluation.h"
+#include "slipnav/ros/parameters.h"
+#include "slipnav/ros/replay_session.h"
+
+namespace slipnav {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// The nodelets live through all tests: each recording begins with a clock that goes back.
+class ReplayEquality : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    config_ = std::make_unique<Config>(configFromParameters(ros::NodeHandle(), "slipnav"));
+    session_ = std::make_unique<ReplaySession>(config_->topics);
+    session_->waitForNodelets();
+    bag_ = std::make_unique<test::TemporaryBag>();
+    test::writeShortDrive(bag_->path(), *config_);
+  }
+
+  static void TearDownTestSuite() {
+    session_.reset();
+    bag_.reset();
+  }
+
+  static void expectEqual(const EstimateTrack& replayed, const EstimateTrack& offline) {
+    ASSERT_GT(offline.size(), 500U);
+    ASSERT_EQ(replayed.size(), offline.size());
+    for (std::size_t i = 0; i < offline.size(); ++i) {
+      ASSERT_EQ(replayed[i].stamp, offline[i].stamp);
+      ASSERT_EQ(replayed[i].position_enu_m, offline[i].position_enu_m) << "at estimate " << i;
+      ASSERT_EQ(replayed[i].q_flu_to_enu.coeffs(), offline[i].q_flu_to_enu.coeffs()) << "at estimate " << i;
+      ASSERT_EQ(replayed[i].covariance_enu_m2, offline[i].covariance_enu_m2) << "at estimate " << i;
+      ASSERT_EQ(replayed[i].speed_mps, offline[i].speed_mps) << "at estimate " << i;
+      ASSERT_EQ(replayed[i].stationary, offline[i].stationary) << "at estimate " << i;
+      ASSERT_EQ(replayed[i].slip, offline[i].slip) << "at estimate " << i;
+    }
+  }
+
+  static BagEvaluation replayAndCompare(const std::string& path, double rate) {
+    BagEvaluation offline = evaluateBag(path, *config_, "", {});
+    session_->play({path, rate, 0.0, 0.0});
+    session_->waitForEstimate(offline.report.estimates.back().stamp);
+    expectEqual(session_->recorder().track(), offline.report.estimates);
+    return offline;
+  }
+
+  static std::unique_ptr<Config> config_;
+  static std::unique_ptr<ReplaySession> session_;
+  static std::unique_ptr<test::TemporaryBag> bag_;
+};
+
+std::unique_ptr<Config> ReplayEquality::config_;
+std::unique_ptr<ReplaySession> ReplayEquality::session_;
+std::unique_ptr<test::TemporaryBag> ReplayEquality::bag_;
+
+TEST_F(ReplayEquality, AtTwentyTimesRealTime) {
+  const BagEvaluation offline = replayAndCompare(bag_->path(), 20.0);
+  EXPECT_TRUE(offline.problems.empty());
+  EXPECT_LT(offline.report.metrics.horizontal_max_m.value(), 1.0);
+}
+
+TEST_F(ReplayEquality, AgainAfterTheClockWentBackAndAsFastAsItGoes) { replayAndCompare(bag_->path(), 100.0); }
+
+TEST_F(ReplayEquality, WithSamplesThatCannotBeUsed) {
+  test::TemporaryBag broken;
+  int imu_count = 0;
+  int wheel_count = 0;
+  test::editBag(bag_->path(), broken.path(), [&](const rosbag::MessageInstance& instance, rosbag::Bag& target) {
+    const auto imu = instance.instantiate<sensor_msgs::Imu>();
+    const auto joints = instance.instantiate<sensor_msgs::JointState>();
+    if (imu) {
+      sensor_msgs::Imu edited = *imu;
+      ++imu_count;
+      edited.linear_acceleration.x = imu_count % 97 == 0 ? kNan : edited.linear_acceleration.x;
+      edited.angular_velocity.z = imu_count % 151 == 0 ? 1e6 : edited.angular_velocity.z;
+      target.write(instance.getTopic(), instance.getTime(), edited);
+    } else if (joints) {
+      sensor_msgs::JointState edited = *joints;
+      ++wheel_count;
+      if (wheel_count % 31 == 0) {
+        edited.velocity[2] = kNan;
+      } else if (wheel_count % 37 == 0) {
+        edited.name[1] = "nonsense";
+      } else if (wheel_count % 41 == 0) {
+        edited.velocity.pop_back();
+      }
+      target.write(instance.getTopic(), instance.getTime(), edited);
+    } else {
+      target.write(instance.getTopic(), instance.getTime(), instance);
+    }
+  });
+  const BagEvaluation offline = replayAndCompare(broken.path(), 20.0);
+  EXPECT_EQ(offline.problems.size(), 3U);
+  EXPECT_GT(offline.report.metrics.rejected_samples, 20);
+  for (const EstimateSample& estimate : offline.report.estimates) {
+    ASSERT_TRUE(estimate.position_enu_m.allFinite());
+  }
+}
+
+TEST_F(ReplayEquality, WithWheelsSilentForAWhile) {
+  test::TemporaryBag silent;
+  const Nanoseconds begin = fromSeconds(config_->simulator.start_time_s + 28.0);
+  test::editBag(bag_->path(), silent.path(), [begin](const rosbag::MessageInstance& instance, rosbag::Bag& target) {
+    const Nanoseconds stamp = static_cast<Nanoseconds>(instance.getTime().toNSec());
+    const bool in_gap = stamp > begin && stamp < begin + fromSeconds(5.0);
+    if (!(in_gap && instance.isType<sensor_msgs::JointState>())) {
+      target.write(instance.getTopic(), instance.getTime(), instance);
+    }
+  });
+  replayAndCompare(silent.path(), 20.0);
+}
+
+}  // namespace
+}  // namespace slipnav
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "replay_equality");
+  return RUN_ALL_TESTS();
+}
