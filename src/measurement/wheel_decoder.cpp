@@ -23,7 +23,7 @@ bool WheelDecoder::locate(const JointArrays& joints) {
   std::vector<std::size_t> indices;
   for (const WheelParams& wheel : wheels_) {
     const auto found = std::find(joints.names.begin(), joints.names.end(), wheel.name);
-    if (joints.names.empty()) {
+    if (joints.names.empty() || wheel.name.empty()) {
       indices.push_back(indices.size());
     } else if (found != joints.names.end()) {
       indices.push_back(static_cast<std::size_t>(found - joints.names.begin()));
@@ -39,10 +39,11 @@ bool WheelDecoder::locate(const JointArrays& joints) {
 
 std::optional<WheelSample> WheelDecoder::pick(const JointArrays& joints, const std::vector<double>& values,
                                               const char* what) {
-  const bool complete = joints.names.empty() ? values.size() >= wheels_.size() : values.size() == joints.names.size();
-  if (!complete) {
+  const std::size_t wanted = joints.names.empty() ? wheels_.size() : joints.names.size();
+  const bool complete = joints.names.empty() ? values.size() >= wanted : values.size() == wanted;
+  if (!complete || values.size() <= *std::max_element(indices_.begin(), indices_.end())) {
     problem_ = "has " + std::to_string(values.size()) + " values of " + what + " for " +
-               std::to_string(joints.names.empty() ? wheels_.size() : joints.names.size()) + " joints";
+               std::to_string(std::max(wanted, wheels_.size())) + " joints";
     return std::nullopt;
   }
   WheelSample sample;
@@ -51,7 +52,9 @@ std::optional<WheelSample> WheelDecoder::pick(const JointArrays& joints, const s
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     sample.rate_radps[i] = wheels_[i].sign * values[indices_[i]];
     if (!std::isfinite(sample.rate_radps[i])) {
-      problem_ = std::string("has a ") + what + " of joint '" + wheels_[i].name + "' that is not a finite number";
+      const std::string joint =
+          joints.names.empty() ? "wheel " + std::to_string(i) : "joint '" + joints.names[indices_[i]] + "'";
+      problem_ = std::string("has a ") + what + " of " + joint + " that is not a finite number";
       return std::nullopt;
     }
   }

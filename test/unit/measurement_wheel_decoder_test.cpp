@@ -50,6 +50,22 @@ TEST_F(WheelDecoderTest, TakesNamelessArraysInTheOrderOfTheConfiguration) {
   EXPECT_EQ(sample->rate_radps[1], 2.0);
 }
 
+TEST(WheelDecoder, TakesWheelsWithoutConfiguredNamesInOrder) {
+  std::vector<WheelParams> wheels = twoWheels();
+  wheels[0].name = wheels[1].name = "";
+  WheelDecoder decoder(wheels);
+  const Names names = {"a", "b", "c"};
+  const Values rates = {1.0, -2.0, 7.0};
+  const auto sample = decoder.decode({1, names, {}, rates});
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->rate_radps[0], 1.0);
+  EXPECT_EQ(sample->rate_radps[1], 2.0);
+  const Names too_few = {"a"};
+  const Values one = {1.0};
+  EXPECT_FALSE(decoder.decode({2, too_few, {}, one}));
+  EXPECT_EQ(decoder.problem(), "has 1 values of velocity for 2 joints");
+}
+
 TEST_F(WheelDecoderTest, DifferencesPositionsWhereThereAreNoVelocities) {
   EXPECT_FALSE(decode(kSecond, {"left", "right"}, {1.0, 1.0}, {}));
   EXPECT_EQ(decoder_.problem(), "");

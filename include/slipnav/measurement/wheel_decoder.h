@@ -11,7 +11,7 @@
 namespace slipnav {
 
 /// One message: arrays are empty or as long as `names`. With no names at all, values stand in the order of the
-/// configured wheels.
+/// configured wheels, and so they do for wheels that are configured without a name.
 struct JointArrays {
   Nanoseconds stamp = 0;
   const std::vector<std::string>& names;
