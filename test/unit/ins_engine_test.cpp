@@ -130,6 +130,23 @@ TEST(InsEngine, RewindGivesTheSameAsTheSequentialRun) {
   }
 }
 
+TEST(InsEngine, GoesOnFromTheCorrectedState) {
+  const std::vector<ImuSample> imu = samples(50);
+  InsEngine engine = filled(imu);
+  const std::vector<InsStep> steps = drain(engine);
+  Correction correction{30, 1, steps[30].state};
+  correction.state.v_eb_n += Vector3(1.0, 2.0, 3.0);
+  correction.state.accel_bias_b = Vector3(0.1, 0.0, 0.0);
+  ASSERT_TRUE(engine.correct(correction));
+  const ImuInterval before{imu[31].f_ib_b, imu[31].omega_ib_b, toSeconds(kPeriod)};
+  const ImuInterval after{imu[32].f_ib_b, imu[32].omega_ib_b, toSeconds(kPeriod)};
+  const NavigationState expected = Strapdown(earth()).propagate(correction.state, before, after, imu[32].stamp);
+  const InsStep step = engine.step().value();
+  EXPECT_EQ(step.sequence, 31U);
+  EXPECT_TRUE(sameState(step.state, expected));
+  EXPECT_EQ(step.f_ib_b, imu[32].f_ib_b - correction.state.accel_bias_b);
+}
+
 /// Corrections that come late give what they would have given in time.
 TEST(InsEngine, LateCorrectionsAreAsGoodAsTimelyOnes) {
   const std::vector<ImuSample> imu = samples(100);

@@ -87,6 +87,15 @@ TEST(Tremor, IsNotWhatTheFilterDidNotKnow) {
   EXPECT_LT(learned(1e-4, 0.003, 20000), 0.0015);
 }
 
+/// One step by hand: half of the innovation is the filter's own, so that a quarter of the gain applies.
+TEST(Tremor, LearnsByTheShareThatItExplains) {
+  Tremor tremor(params());
+  const double start = 0.005 * 0.005;
+  const double innovation2 = 4.0 * start;
+  tremor.learn(Vector3::Constant(std::sqrt(innovation2)), start);
+  EXPECT_NEAR(tremor.variance(), start + 0.25 / 50.0 * (innovation2 - start - start), 1e-15);
+}
+
 TEST(Tremor, StaysWithinItsLimits) {
   Tremor tremor(params());
   for (int i = 0; i < 5000; ++i) {

@@ -220,8 +220,13 @@ TEST(Initializer, MotionStartsWhileDriving) {
   EXPECT_NEAR(euler.z(), degToRad(config.initialization.heading_deg), 1e-9);
 }
 
-/// The drive may as well go backwards: the heading is that of the rover, not of its course.
-TEST(Initializer, ABackwardDriveGivesTheSameHeading) {
+/// A start that is driven by a constant command after 12 s of rest.
+struct CommandedStart {
+  std::optional<InitialState> initial;
+  double heading_error_rad = 0.0;
+};
+
+CommandedStart initialiseUnder(const sim::Command& command) {
   Config config = startConfig(6);
   config.simulator.drive.initial_straight_m = 0.0;
   const Planet planet = Planet::byName(config.planet);
@@ -229,9 +234,10 @@ TEST(Initializer, ABackwardDriveGivesTheSameHeading) {
   const WheelGeometry geometry = config.wheelGeometry();
   Initializer initializer(planet, setup.initialization, setup.imu_input, setup.filter);
   sim::RoverSimulator rover(config.simulator, planet);
-  std::optional<InitialState> initial;
-  for (int i = 0; i < 3000 && !initial; ++i) {
-    const sim::Measurements m = rover.step(i < 600 ? sim::Command{} : sim::Command{-0.8, 0.0});
+  CommandedStart start;
+  double true_heading_rad = 0.0;
+  for (int i = 0; i < 3000 && !start.initial; ++i) {
+    const sim::Measurements m = rover.step(i < 600 ? sim::Command{} : command);
     if (m.gps) {
       initializer.push(toPositionFix(*m.gps));
     }
@@ -239,12 +245,31 @@ TEST(Initializer, ABackwardDriveGivesTheSameHeading) {
       initializer.push(toWheelMotion(geometry, *m.wheel));
     }
     initializer.push(m.imu);
-    initial = initializer.result();
+    start.initial = initializer.result();
+    true_heading_rad = rover.truth().heading_rad;
   }
-  ASSERT_TRUE(initial) << initializer.progress();
-  const double heading = eulerFrom_q_b_to_n(initial->nav.q_b_to_n).z();
-  EXPECT_NEAR(wrapToPi(heading - rover.truth().heading_rad), 0.0, degToRad(5.0));
-  EXPECT_LT((initial->nav.q_b_to_n.conjugate() * initial->nav.v_eb_n).x(), -0.5);
+  EXPECT_TRUE(start.initial) << initializer.progress();
+  if (start.initial) {
+    start.heading_error_rad = wrapToPi(eulerFrom_q_b_to_n(start.initial->nav.q_b_to_n).z() - true_heading_rad);
+  }
+  return start;
+}
+
+/// The drive may as well go backwards: the heading is that of the rover, not of its course.
+TEST(Initializer, ABackwardDriveGivesTheSameHeading) {
+  const CommandedStart start = initialiseUnder({-0.8, 0.0});
+  ASSERT_TRUE(start.initial);
+  EXPECT_NEAR(start.heading_error_rad, 0.0, degToRad(5.0));
+  EXPECT_LT((start.initial->nav.q_b_to_n.conjugate() * start.initial->nav.v_eb_n).x(), -0.5);
+}
+
+/// Nor need it be straight: wheels and gyro follow the bend.
+TEST(Initializer, ACurvedDriveGivesTheHeading) {
+  for (const double yaw_rate_radps : {0.06, -0.06}) {
+    const CommandedStart start = initialiseUnder({0.8, yaw_rate_radps});
+    ASSERT_TRUE(start.initial);
+    EXPECT_NEAR(start.heading_error_rad, 0.0, degToRad(5.0)) << yaw_rate_radps;
+  }
 }
 
 TEST(Initializer, TruthIsTakenAsItIs) {

@@ -189,6 +189,24 @@ TEST(Navigator, AGapInTheImuInflatesTheCovariance) {
   EXPECT_GT(growth(kPosition), 0.5 * 0.4 * gap_s * gap_s);
 }
 
+/// What lies before a wheel sample is certain as soon as the sample is there.
+TEST(Navigator, DoesNotWaitLongerThanForTheNextWheels) {
+  const NavigationSetup setup = config().navigation();
+  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
+  navigator.initialise(drive().initial);
+  Nanoseconds told = 0;
+  const auto sink = [&told](const Estimate& e, const ErrorCovariance&) { told = e.nav.stamp; };
+  Nanoseconds newest_imu = 0;
+  for (const DriveSample& sample : drive().samples) {
+    if (sample.is_imu) {
+      navigator.push(sample.imu, sink);
+      newest_imu = sample.stamp();
+    } else if (navigator.push(sample.wheels, sink)) {
+      ASSERT_EQ(told, newest_imu <= drive().initial.nav.stamp ? 0 : newest_imu);
+    }
+  }
+}
+
 TEST(Navigator, FreeInertialDoesNotWaitForWheels) {
   Config free_inertial = config();
   free_inertial.filter.updates = {};
