@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "slipnav/config/config.h"
 #include "slipnav/config/markdown_writer.h"
@@ -19,13 +20,30 @@ std::string contentOf(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
+/// The first line in which two texts differ, "" where they are equal.
+std::string firstDifference(const std::string& actual, const std::string& expected) {
+  std::istringstream actual_lines(actual);
+  std::istringstream expected_lines(expected);
+  std::string actual_line;
+  std::string expected_line;
+  for (int number = 1; actual_lines || expected_lines; ++number) {
+    const bool has_actual = static_cast<bool>(std::getline(actual_lines, actual_line));
+    const bool has_expected = static_cast<bool>(std::getline(expected_lines, expected_line));
+    if (has_actual != has_expected || (has_actual && actual_line != expected_line)) {
+      return "line " + std::to_string(number) + ": '" + (has_actual ? actual_line : "") + "' should be '" +
+             (has_expected ? expected_line : "") + "'";
+    }
+  }
+  return "";
+}
+
 TEST(ConfigFiles, DefaultYamlHoldsTheDefaults) {
-  EXPECT_EQ(contentOf("config/default.yaml"), toYaml(Config{}))
+  EXPECT_EQ(firstDifference(contentOf("config/default.yaml"), toYaml(Config{})), "")
       << "regenerate it: ./run configuration > config/default.yaml";
 }
 
 TEST(ConfigFiles, ReferenceListsEveryParameter) {
-  EXPECT_EQ(contentOf("doc/configuration.md"), toMarkdown(Config{}))
+  EXPECT_EQ(firstDifference(contentOf("doc/configuration.md"), toMarkdown(Config{})), "")
       << "regenerate it: ./run configuration --format markdown > doc/configuration.md";
 }
 
