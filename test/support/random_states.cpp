@@ -52,4 +52,11 @@ ErrorVector unitError(int index, double size) {
   return error;
 }
 
+bool sameState(const NavigationState& a, const NavigationState& b) {
+  return a.stamp == b.stamp && a.q_b_to_n.coeffs() == b.q_b_to_n.coeffs() && a.v_eb_n == b.v_eb_n &&
+         a.position.latitude_rad == b.position.latitude_rad && a.position.longitude_rad == b.position.longitude_rad &&
+         a.position.height_m == b.position.height_m && a.accel_bias_b == b.accel_bias_b &&
+         a.gyro_bias_b == b.gyro_bias_b;
+}
+
 }  // namespace slipnav::test

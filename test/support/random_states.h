@@ -1,5 +1,5 @@
 #pragma once
-/// Random states, matrices and filter data for tests of Jacobians and updates.
+/// Random states and covariances for tests of Jacobians and updates, and comparison of states.
 
 #include "slipnav/filter/error_state.h"
 #include "slipnav/sim/random.h"
@@ -17,5 +17,8 @@ ErrorCovariance randomCovariance(sim::RandomStream& random);
 
 /// Error of one direction of the error state, everything else zero.
 ErrorVector unitError(int index, double size);
+
+/// Whether two states are equal bit for bit.
+bool sameState(const NavigationState& a, const NavigationState& b);
 
 }  // namespace slipnav::test

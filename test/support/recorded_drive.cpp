@@ -2,18 +2,12 @@
 
 #include <algorithm>
 
+#include "random_states.h"
 #include "slipnav/eval/simulated_drive.h"
 #include "slipnav/filter/error_dynamics.h"
 
 namespace slipnav::test {
 namespace {
-
-bool sameState(const NavigationState& a, const NavigationState& b) {
-  return a.stamp == b.stamp && a.q_b_to_n.coeffs() == b.q_b_to_n.coeffs() && a.v_eb_n == b.v_eb_n &&
-         a.position.latitude_rad == b.position.latitude_rad && a.position.longitude_rad == b.position.longitude_rad &&
-         a.position.height_m == b.position.height_m && a.accel_bias_b == b.accel_bias_b &&
-         a.gyro_bias_b == b.gyro_bias_b;
-}
 
 InitialState initialFromTruth(const Config& config, const Planet& planet, const NavigationState& truth) {
   InitialState initial;

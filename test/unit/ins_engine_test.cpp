@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "random_states.h"
 #include "slipnav/math/rotation.h"
 #include "slipnav/sim/random.h"
 
@@ -42,12 +43,6 @@ std::vector<InsStep> drain(InsEngine& engine) {
     steps.push_back(*step);
   }
   return steps;
-}
-
-bool sameState(const NavigationState& a, const NavigationState& b) {
-  return a.stamp == b.stamp && a.q_b_to_n.coeffs() == b.q_b_to_n.coeffs() && a.v_eb_n == b.v_eb_n &&
-         a.position.latitude_rad == b.position.latitude_rad && a.position.longitude_rad == b.position.longitude_rad &&
-         a.position.height_m == b.position.height_m;
 }
 
 /// An engine that starts at the first sample and has got all of them.
