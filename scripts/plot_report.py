@@ -27,7 +27,12 @@ def read_timeline(path):
 
 
 def shade_standstill(axes, time, stationary):
-    axes.fill_between(time, 0, 1, where=stationary > 0.5, transform=axes.get_xaxis_transform(), color="0.9", lw=0)
+    """Behind what is drawn already, whose limits it keeps."""
+    limits = axes.axis()
+    axes.fill_between(
+        time, 0, 1, where=stationary > 0.5, transform=axes.get_xaxis_transform(), color="0.9", lw=0, zorder=0
+    )
+    axes.axis(limits)
 
 
 def plot_track(timeline, path):
