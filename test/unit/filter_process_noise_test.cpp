@@ -180,6 +180,22 @@ TEST(ProcessNoise, EstimatesOfGaussMarkovStatesFade) {
   EXPECT_EQ(vehicle.mount_yaw_rad, 0.5);
 }
 
+TEST(ProcessNoise, ALoosenedSlipIsUnknownAndUncorrelated) {
+  VehicleModelParams vehicle = distinctVehicle();
+  vehicle.slip_impulse_std = 0.25;
+  sim::RandomStream random(2, "impulse");
+  ErrorCovariance P = randomCovariance(random);
+  const ErrorCovariance before = P;
+  ErrorDynamics(Planet::byName("earth"), silentImu(), vehicle).loosenFastSlip(P);
+  EXPECT_NEAR(P(kFastSlip, kFastSlip), 0.0625, 1e-15);
+  EXPECT_NEAR(P.row(kFastSlip).norm(), 0.0625, 1e-15);
+  EXPECT_NEAR(P.col(kFastSlip).norm(), 0.0625, 1e-15);
+  ErrorCovariance others = P - before;
+  others.row(kFastSlip).setZero();
+  others.col(kFastSlip).setZero();
+  EXPECT_EQ(others.norm(), 0.0);
+}
+
 TEST(ProcessNoise, GyroNoiseDensityIsTheSquareOfTheRandomWalk) {
   ImuNoiseParams imu = silentImu();
   imu.gyro_noise_deg_per_sqrt_h = 0.3;
