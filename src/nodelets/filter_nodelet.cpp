@@ -8,6 +8,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <boost/make_shared.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -29,11 +30,10 @@ class FilterNodelet : public CoreNodelet {
   void begin(const Config& config) override {
     engine_.emplace(Planet::byName(config.planet), config.navigation().filter);
     wheel_input_.emplace(config);
-    estimates_ = std::make_unique<EstimatePublisher>(config);
     const bool uses_wheels = !config.filter.updates.empty();
     gate_ = StepGate(uses_wheels ? std::optional<double>(config.filter.max_wait_s) : std::nullopt);
     look_ahead_ = LookAhead(config.filter.max_wait_s);
-    estimates_->advertise(getNodeHandle());
+    lever_imu_to_base_b_ = -config.imu.mount.position_b();
   }
 
   void subscribe(const Config& config) override {
@@ -43,7 +43,10 @@ class FilterNodelet : public CoreNodelet {
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &FilterNodelet::onWheels<nav_msgs::Odometry>);
   }
 
-  void advertise(const Config&) override { correction_publisher_ = publisher<FilterCorrection>(kCorrectionTopic); }
+  void advertise(const Config& config) override {
+    estimates_ = std::make_unique<EstimatePublisher>(getNodeHandle(), config);
+    correction_publisher_ = publisher<FilterCorrection>(kCorrectionTopic);
+  }
 
   void onInitialState(const StartState::ConstPtr& message) {
     if (started_ && message->session <= session_) {
@@ -59,7 +62,7 @@ class FilterNodelet : public CoreNodelet {
       useWheels(wheels);
     }
     engine_->initialise(initial);
-    estimates_->start(initial.origin, engine_->dynamics().gyroNoiseDensity());
+    estimates_->start(initial.origin, lever_imu_to_base_b_, engine_->dynamics().gyroNoiseDensity());
     const std::vector<InsSteps::ConstPtr> early = std::move(early_steps_);
     early_steps_.clear();
     for (const InsSteps::ConstPtr& steps : early) {
@@ -164,6 +167,7 @@ class FilterNodelet : public CoreNodelet {
   std::optional<FilterEngine> engine_;
   std::optional<WheelInput> wheel_input_;
   std::unique_ptr<EstimatePublisher> estimates_;
+  Vector3 lever_imu_to_base_b_ = Vector3::Zero();
   StepGate gate_{std::nullopt};
   LookAhead look_ahead_{0.0};
   WheelSessions wheel_sessions_;

@@ -12,17 +12,16 @@ constexpr std::uint32_t kQueueSize = 10000;
 
 }  // namespace
 
-EstimatePublisher::EstimatePublisher(const Config& config)
-    : config_(config), planet_(Planet::byName(config.planet)), geometry_(config.wheelGeometry()) {}
+EstimatePublisher::EstimatePublisher(ros::NodeHandle& node, const Config& config)
+    : config_(config),
+      planet_(Planet::byName(config.planet)),
+      geometry_(config.wheelGeometry()),
+      odometry_(node.advertise<nav_msgs::Odometry>(config.topics.odometry, kQueueSize)),
+      nav_state_(node.advertise<NavState>(config.topics.nav_state, kQueueSize)),
+      slip_(node.advertise<Slip>(config.topics.slip, kQueueSize)) {}
 
-void EstimatePublisher::advertise(ros::NodeHandle& node) {
-  nav_state_ = node.advertise<NavState>(config_.topics.nav_state, kQueueSize);
-  slip_ = node.advertise<Slip>(config_.topics.slip, kQueueSize);
-  odometry_ = node.advertise<nav_msgs::Odometry>(config_.topics.odometry, kQueueSize);
-}
-
-void EstimatePublisher::start(const Geodetic& origin, double gyro_noise_density) {
-  output_.emplace(planet_, origin, -config_.imu.mount.position_b(), gyro_noise_density);
+void EstimatePublisher::start(const Geodetic& origin, const Vector3& lever_imu_to_base_b, double gyro_noise_density) {
+  output_.emplace(planet_, origin, lever_imu_to_base_b, gyro_noise_density);
 }
 
 void EstimatePublisher::publish(const Estimate& estimate, const ErrorCovariance& P) {

@@ -7,62 +7,14 @@
 
 #include <limits>
 
-#include "ros/simulated_bag.h"
-#include "slipnav/ros/bag_evaluation.h"
-#include "slipnav/ros/parameters.h"
-#include "slipnav/ros/replay_session.h"
+#include "ros/replay_fixture.h"
 
 namespace slipnav {
 namespace {
 
+class ReplayEquality : public test::ReplayFixture {};
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-/// The nodelets live through all tests: each recording begins with a clock that goes back.
-class ReplayEquality : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    config_ = std::make_unique<Config>(configFromParameters(ros::NodeHandle(), "slipnav"));
-    session_ = std::make_unique<ReplaySession>(config_->topics);
-    session_->waitForNodelets();
-    bag_ = std::make_unique<test::TemporaryBag>();
-    test::writeShortDrive(bag_->path(), *config_);
-  }
-
-  static void TearDownTestSuite() {
-    session_.reset();
-    bag_.reset();
-  }
-
-  static void expectEqual(const EstimateTrack& replayed, const EstimateTrack& offline) {
-    ASSERT_GT(offline.size(), 500U);
-    ASSERT_EQ(replayed.size(), offline.size());
-    for (std::size_t i = 0; i < offline.size(); ++i) {
-      ASSERT_EQ(replayed[i].stamp, offline[i].stamp);
-      ASSERT_EQ(replayed[i].position_enu_m, offline[i].position_enu_m) << "at estimate " << i;
-      ASSERT_EQ(replayed[i].q_flu_to_enu.coeffs(), offline[i].q_flu_to_enu.coeffs()) << "at estimate " << i;
-      ASSERT_EQ(replayed[i].covariance_enu_m2, offline[i].covariance_enu_m2) << "at estimate " << i;
-      ASSERT_EQ(replayed[i].speed_mps, offline[i].speed_mps) << "at estimate " << i;
-      ASSERT_EQ(replayed[i].stationary, offline[i].stationary) << "at estimate " << i;
-      ASSERT_EQ(replayed[i].slip, offline[i].slip) << "at estimate " << i;
-    }
-  }
-
-  static BagEvaluation replayAndCompare(const std::string& path, double rate) {
-    BagEvaluation offline = evaluateBag(path, *config_, "", {});
-    session_->play({path, rate, 0.0, 0.0});
-    session_->waitForEstimate(offline.report.estimates.back().stamp);
-    expectEqual(session_->recorder().track(), offline.report.estimates);
-    return offline;
-  }
-
-  static std::unique_ptr<Config> config_;
-  static std::unique_ptr<ReplaySession> session_;
-  static std::unique_ptr<test::TemporaryBag> bag_;
-};
-
-std::unique_ptr<Config> ReplayEquality::config_;
-std::unique_ptr<ReplaySession> ReplayEquality::session_;
-std::unique_ptr<test::TemporaryBag> ReplayEquality::bag_;
 
 TEST_F(ReplayEquality, AtTwentyTimesRealTime) {
   const BagEvaluation offline = replayAndCompare(bag_->path(), 20.0);

@@ -31,8 +31,8 @@ class CoreNodelet : public nodelet::Nodelet {
   void onInit() final;
 
  protected:
-  /// Builds what the configuration describes; called once, before any message is handled. May throw
-  /// std::invalid_argument.
+  /// Builds what the configuration describes; called once, before any message is handled and, where the extrinsics have
+  /// to be waited for, after the two below. May throw std::invalid_argument.
   virtual void begin(const Config& config) = 0;
   virtual void subscribe(const Config& config) = 0;
   virtual void advertise(const Config& config) = 0;

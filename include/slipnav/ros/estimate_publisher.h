@@ -15,12 +15,11 @@ namespace slipnav {
 
 class EstimatePublisher {
  public:
-  explicit EstimatePublisher(const Config& config);
+  EstimatePublisher(ros::NodeHandle& node, const Config& config);
 
-  void advertise(ros::NodeHandle& node);
-
-  /// A new map frame. @param gyro_noise_density [rad²/s]
-  void start(const Geodetic& origin, double gyro_noise_density);
+  /// A new map frame.
+  /// @param lever_imu_to_base_b from the IMU to base_link, body axes [m]; @param gyro_noise_density [rad²/s]
+  void start(const Geodetic& origin, const Vector3& lever_imu_to_base_b, double gyro_noise_density);
 
   /// One estimate. Call start() before.
   void publish(const Estimate& estimate, const ErrorCovariance& P);
