@@ -13,17 +13,20 @@ constexpr double kTremor_mps = 1e-4;
 }  // namespace
 
 Vibration::Vibration(const GroundParams& ground, double factor, double rate_hz, std::uint64_t seed)
-    // the difference of two independent values over an interval has the ground's standard deviation
-    : velocity_sigma_(std::sqrt(0.5) * factor * ground.vibration_mps2 / rate_hz),
+    // offsets are independent from interval to interval; their first and second differences over the interval have the
+    // deviations of the tremor, and of what the ground does to specific force and rate
+    : offset_sigma_(std::sqrt(1.0 / 6.0) * factor * ground.vibration_mps2 / (rate_hz * rate_hz)),
+      tremor_sigma_(std::sqrt(0.5) * factor * kTremor_mps / rate_hz),
       angle_sigma_(std::sqrt(0.5) * factor * ground.vibration_radps / rate_hz),
-      tremor_(factor * kTremor_mps),
       stream_(seed, "vibration") {}
 
 InertialMean Vibration::shake(const InertialMean& smooth, double dt_s, double speed_mps) {
+  const Vector3 offset_before = offset_b_;
   const Vector3 velocity_before = velocity_b_;
   const Vector3 angle_before = angle_b_;
   const double part = speed_mps / kVibrationSpeed_mps;
-  velocity_b_ = std::hypot(part * velocity_sigma_, tremor_) * stream_.normal3();
+  offset_b_ = std::hypot(part * offset_sigma_, tremor_sigma_) * stream_.normal3();
+  velocity_b_ = (offset_b_ - offset_before) / dt_s;
   angle_b_ = part * angle_sigma_ * stream_.normal3();
   // the axes along which everything is sensed turn with the vibration
   const Quaternion q_smooth_to_shaken = quaternionFromRotationVector(-0.5 * (angle_before + angle_b_));

@@ -9,7 +9,7 @@
 namespace slipnav {
 
 struct NonholonomicParams {
-  double lateral_std_mps = 0.008;
+  double lateral_std_mps = 0.0065;
   double lateral_turn_std_m = 0.03;
   double vertical_std_mps = 0.011;
   double vertical_turn_std_m = 0.02;

@@ -7,8 +7,8 @@
 
 namespace slipnav::sim {
 
-/// At the end of each IMU interval the body is off its smooth motion by a random velocity and a random attitude, in
-/// proportion to the speed; a tremor of the velocity is left at rest. The IMU senses how these change. They are real
+/// At the end of each IMU interval the body is off its smooth motion by a random offset of micrometres, with the velocity
+/// that belongs to it, and a random attitude, in proportion to the speed; a tremor is left at rest. The IMU senses how these change. They are real
 /// motion and part of the truth.
 class Vibration {
  public:
@@ -25,10 +25,11 @@ class Vibration {
   const Vector3& angle() const { return angle_b_; }
 
  private:
-  double velocity_sigma_;  ///< at kVibrationSpeed_mps
+  double offset_sigma_;  ///< at kVibrationSpeed_mps
+  double tremor_sigma_;
   double angle_sigma_;
-  double tremor_;
   RandomStream stream_;
+  Vector3 offset_b_ = Vector3::Zero();
   Vector3 velocity_b_ = Vector3::Zero();
   Vector3 angle_b_ = Vector3::Zero();
 };
