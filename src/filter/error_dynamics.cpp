@@ -63,6 +63,8 @@ void VehicleModelParams::visit(ParameterVisitor& v) {
   v.number("fast_slip_time_s", fast_slip_time_s, {1e-2, 1e5}, "time constant of the fast slip [s]");
   v.number("slip_impulse_std", slip_impulse_std, {0.0, 1.0},
            "1σ of the slip ratio after a wheel speed that the filter rejects: a wheel has lost its grip");
+  v.number("slip_impulse_time_s", slip_impulse_time_s, {0.0, 60.0},
+           "how long the wheel speed is left out after that [s]");
   v.number("side_slip_std_deg", side_slip_std_deg, {0.0, 45.0}, "1σ of the side-slip angle [°]");
   v.number("side_slip_time_s", side_slip_time_s, {1e-2, 1e5}, "time constant of the side slip [s]");
   v.number("mount_pitch_std_deg", mount_pitch_std_deg, {0.0, 10.0}, "1σ of the IMU's mounting error in pitch [°]");

@@ -63,6 +63,7 @@ void FilterEngine::initialise(const InitialState& initial) {
   }
   average_.restart(0);
   recent_wheel_speed_mps_ = 0.0;
+  slipping_until_ = 0;
   steps_.clear();
   // A wheel interval that began before the initial state is not known in full and goes unused.
   while (!wheels_.empty() && wheels_.front().stamp <= initial.nav.stamp) {
@@ -206,6 +207,7 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   const bool corrected = update(at_rest ? restingMeasurements(motion) : movingMeasurements(wheels, motion));
   if (update_.status(kForwardSpeed).rejected > wheel_rejections) {
     dynamics_.loosenFastSlip(P_);
+    slipping_until_ = wheels.stamp + fromSeconds(setup_.vehicle.slip_impulse_time_s);
   }
   estimate_.stationary = at_rest && (!use_zupt_ || update_.status(kZeroVelocity).accepted > zero_updates);
   return corrected;
@@ -215,8 +217,10 @@ MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const
   const Vector3& lever_b = setup_.lever_imu_to_reference_b;
   MeasurementSet set;
   if (use_wheel_) {
-    set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, recent_wheel_speed_mps_, motion, state_, vehicle_,
-                                                   lever_b));
+    if (wheels.stamp > slipping_until_) {
+      set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, recent_wheel_speed_mps_,
+                                                     motion, state_, vehicle_, lever_b));
+    }
     if (wheels.motion.has_yaw_rate) {
       set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheels.motion.yaw_rate_radps, motion));
     }

@@ -9,9 +9,9 @@
 namespace slipnav {
 
 struct NonholonomicParams {
-  double lateral_std_mps = 0.0065;
+  double lateral_std_mps = 0.0058;
   double lateral_turn_std_m = 0.03;
-  double vertical_std_mps = 0.011;
+  double vertical_std_mps = 0.0098;
   double vertical_turn_std_m = 0.02;
   double max_side_slip_deg = 15.0;
   void visit(ParameterVisitor& v);
