@@ -10,8 +10,14 @@ WheelInput::WheelInput(const Config& config)
     : geometry_(config.wheelGeometry()),
       decoder_(config.wheels),
       source_(config.wheel.source),
+      stamp_delay_(fromSeconds(config.wheel.stamp_delay_s)),
       joint_topic_(config.topics.joint_states),
       odometry_topic_(config.topics.wheel_odometry) {}
+
+WheelMotion WheelInput::atEndOfInterval(WheelMotion wheels) const {
+  wheels.stamp -= stamp_delay_;
+  return wheels;
+}
 
 std::optional<WheelMotion> WheelInput::take(const sensor_msgs::JointState& message) {
   problem_.clear();
@@ -27,7 +33,7 @@ std::optional<WheelMotion> WheelInput::take(const sensor_msgs::JointState& messa
     return std::nullopt;
   }
   joints_heard_ = true;
-  return toWheelMotion(geometry_, *sample);
+  return atEndOfInterval(toWheelMotion(geometry_, *sample));
 }
 
 std::optional<WheelMotion> WheelInput::take(const nav_msgs::Odometry& message) {
@@ -40,7 +46,7 @@ std::optional<WheelMotion> WheelInput::take(const nav_msgs::Odometry& message) {
     problem_ = odometry_topic_ + " has a forward speed that is not a finite number";
     return std::nullopt;
   }
-  return toWheelMotion(SpeedSample{toNanoseconds(message.header.stamp), forward_mps});
+  return atEndOfInterval(toWheelMotion(SpeedSample{toNanoseconds(message.header.stamp), forward_mps}));
 }
 
 }  // namespace slipnav

@@ -31,9 +31,12 @@ class WheelInput {
   bool wantsOdometry() const { return source_ != "joint_states"; }
 
  private:
+  WheelMotion atEndOfInterval(WheelMotion wheels) const;
+
   WheelGeometry geometry_;
   WheelDecoder decoder_;
   std::string source_;
+  Nanoseconds stamp_delay_;
   std::string joint_topic_;
   std::string odometry_topic_;
   bool joints_heard_ = false;
