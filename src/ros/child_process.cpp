@@ -15,6 +15,8 @@ extern char** environ;
 namespace slipnav {
 namespace {
 
+constexpr int kUnknownStatus = 127;  // somebody else has waited for the program
+
 int exitStatus(int wait_status) {
   return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
 }
@@ -24,6 +26,7 @@ int exitStatus(int wait_status) {
 ChildProcess::ChildProcess(const std::vector<std::string>& command) : pid_(0) {
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) {
     arguments.push_back(word.data());
   }
@@ -41,7 +44,7 @@ ChildProcess::~ChildProcess() {
   }
 }
 
-std::optional<int> ChildProcess::poll() {
+std::optional<int> ChildProcess::poll() noexcept {
   int wait_status = 0;
   if (!status_ && waitpid(pid_, &wait_status, WNOHANG) == pid_) {
     status_ = exitStatus(wait_status);
@@ -49,13 +52,13 @@ std::optional<int> ChildProcess::poll() {
   return status_;
 }
 
-int ChildProcess::wait() {
+int ChildProcess::wait() noexcept {
   int wait_status = 0;
   while (!status_) {
     if (waitpid(pid_, &wait_status, 0) == pid_) {
       status_ = exitStatus(wait_status);
     } else if (errno != EINTR) {
-      throw std::runtime_error(std::string("waiting for a child process: ") + std::strerror(errno));
+      status_ = kUnknownStatus;
     }
   }
   return *status_;

@@ -120,9 +120,7 @@ TEST_F(EstimateConversions, CovarianceTurnsWithItsBlocks) {
   P_(kPosition, kAccelBias + 1) = 0.5;  // north with lateral bias, right
   P_(kAccelBias + 1, kPosition) = 0.5;
   const NavState state = message();
-  const auto at = [&state](int row, int column) {
-    return state.covariance[static_cast<std::size_t>(15 * row + column)];
-  };
+  const auto at = [&state](std::size_t row, std::size_t column) { return state.covariance[15 * row + column]; };
   EXPECT_NEAR(at(7, 7), 4.0, 1e-9);
   EXPECT_NEAR(at(6, 6), 0.0, 1e-9);
   EXPECT_NEAR(at(7, 10), -0.5, 1e-9);

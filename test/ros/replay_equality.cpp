@@ -1,11 +1,14 @@
 /// What the nodelets make of a recording, played fast, against the offline run: the same numbers to the last bit.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
 
 #include <limits>
+#include <map>
+#include <string>
 
 #include "ros/replay_fixture.h"
 
@@ -16,10 +19,30 @@ class ReplayEquality : public test::ReplayFixture {};
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
+/// Keeps the last level of each status by its name.
+ros::Subscriber listenToDiagnostics(std::map<std::string, int>& levels) {
+  const boost::function<void(const diagnostic_msgs::DiagnosticArray::ConstPtr&)> note =
+      [&levels](const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
+        for (const diagnostic_msgs::DiagnosticStatus& status : message->status) {
+          levels[status.name] = status.level;
+        }
+      };
+  return ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, note);
+}
+
 TEST_F(ReplayEquality, AtTwentyTimesRealTime) {
+  std::map<std::string, int> levels;
+  ros::Subscriber diagnostics = listenToDiagnostics(levels);
   const BagEvaluation offline = replayAndCompare(bag_->path(), 20.0);
   EXPECT_TRUE(offline.problems.empty());
   EXPECT_LT(offline.report.metrics.horizontal_max_m.value(), 1.0);
+  const std::map<std::string, int> all_well = {
+      {"filter: /filter", 0}, {"initializer: /initializer", 0}, {"ins: /ins", 0}};
+  for (int i = 0; i < 50 && levels != all_well; ++i) {  // they come once a second
+    ros::spinOnce();
+    ros::WallDuration(0.1).sleep();
+  }
+  EXPECT_EQ(levels, all_well);
 }
 
 TEST_F(ReplayEquality, AgainAfterTheClockWentBackAndAsFastAsItGoes) { replayAndCompare(bag_->path(), 100.0); }

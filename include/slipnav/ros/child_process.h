@@ -20,9 +20,9 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   /// The exit status once it has ended (128 + signal when it was killed), nothing while it runs.
-  std::optional<int> poll();
+  std::optional<int> poll() noexcept;
   /// Waits for the end. @return the exit status as above
-  int wait();
+  int wait() noexcept;
 
  private:
   pid_t pid_;
