@@ -25,7 +25,7 @@ inline constexpr std::size_t kMaxWheels = 12;
 /// Mean wheel motion over the interval that ends at `stamp`. Wheels stand in the order of the configuration.
 struct WheelSample {
   Nanoseconds stamp = 0;
-  std::size_t count = 0;                          ///< number of wheels filled in below
+  std::size_t count = 0;                           ///< number of wheels filled in below
   std::array<double, kMaxWheels> rate_radps = {};  ///< angular rate, positive when rolling forward [rad/s]
 };
 
@@ -38,9 +38,9 @@ struct SpeedSample {
 /// A satellite position fix of the antenna, with its covariance in local north-east-down [m²].
 struct GnssFix {
   Nanoseconds stamp = 0;
-  double latitude_deg = 0.0;   ///< geodetic, as in sensor_msgs/NavSatFix
+  double latitude_deg = 0.0;  ///< geodetic, as in sensor_msgs/NavSatFix
   double longitude_deg = 0.0;
-  double height_m = 0.0;       ///< above the ellipsoid
+  double height_m = 0.0;  ///< above the ellipsoid
   Matrix3 covariance_ned_m2 = Matrix3::Identity();
 };
 

@@ -7,7 +7,8 @@ namespace slipnav {
 void FilterParams::visit(ParameterVisitor& v) {
   v.words("updates", updates, {"wheel", "nonholonomic", "zupt", "zaru"},
           "measurements that correct the state; an empty list is free inertial navigation");
-  v.number("gate_alpha", gate_alpha, {1e-12, 0.5}, "probability with which a good measurement fails the innovation gate");
+  v.number("gate_alpha", gate_alpha, {1e-12, 0.5},
+           "probability with which a good measurement fails the innovation gate");
   v.number("zero_velocity_gate_alpha", zero_velocity_gate_alpha, {1e-12, 0.5},
            "the same for zero velocity and zero rate, which encoders and IMU have agreed on already");
   v.number("max_rejection_s", max_rejection_s, {0.0, 1e6},

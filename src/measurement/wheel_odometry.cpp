@@ -21,8 +21,8 @@ void WheelOdometryParams::visit(ParameterVisitor& v) {
            "how much wider than the geometric track the wheels act in a turn");
 }
 
-Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps, double slipping_speed_mps,
-                                    const BodyMotion& motion, const NavigationState& state,
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
+                                    double slipping_speed_mps, const BodyMotion& motion, const NavigationState& state,
                                     const VehicleState& vehicle, const Vector3& lever_b) {
   const double slip = vehicle.wheel_scale + vehicle.slow_slip + vehicle.fast_slip;
   Measurement m(1);

@@ -274,8 +274,8 @@ std::optional<PositionFix> Initializer::endFix(const PositionFix& start) const {
 }
 
 double Initializer::headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const {
-  const double bias_z = at_rest ? mean(rest_.begin, rest_.end).omega_ib_b.z()
-                                : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
+  const double bias_z =
+      at_rest ? mean(rest_.begin, rest_.end).omega_ib_b.z() : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
   double heading = 0.0;
   Vector2 track = Vector2::Zero();
   for (std::size_t i = 1; i < imu_.size() && imu_[i].stamp <= end.stamp; ++i) {

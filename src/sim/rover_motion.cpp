@@ -95,7 +95,6 @@ void RoverMotion::moveBody(const SurfacePoint& surface, const Slippage& slippage
   const double yaw_rate_radps = (left_mps - right_mps) / (slippage.track_factor * vehicle_.track_m);
   state_.v_eb_b << forward_mps, std::abs(forward_mps) * slippage.lateral - slippage.turn_centre_m * yaw_rate_radps, 0.0;
   state_.v_eb_enu = state_.C_b_to_enu * state_.v_eb_b;
-  state_.slip_angle_rad = forward_mps == 0.0 ? 0.0 : std::atan2(state_.v_eb_b.y(), state_.v_eb_b.x());
 
   // the axes turn with the surface's normal along the way; see doc/simulator.md
   const Vector3 forward = state_.C_b_to_enu.col(0);
@@ -121,6 +120,7 @@ void RoverMotion::addHeave(const Slippage& slippage) {
   state_.position_enu_m.z() += slippage.heave_m;
   state_.v_eb_enu.z() += slippage.heave_slope * rate_[kTravel];
   state_.v_eb_b = state_.C_b_to_enu.transpose() * state_.v_eb_enu;
+  state_.slip_angle_rad = state_.v_eb_b.isZero(0.0) ? 0.0 : std::atan2(state_.v_eb_b.y(), state_.v_eb_b.x());
 }
 
 void RoverMotion::turnWheels(const Slippage& slippage, double yaw_rate_radps) {

@@ -58,9 +58,8 @@ std::unique_ptr<StopPolicy> makeStopPolicy(const std::string& text) {
   const std::string kPeriodic = "periodic:";
   const std::size_t colon = text.find(':', kPeriodic.size());
   if (text.compare(0, kPeriodic.size(), kPeriodic) == 0 && colon != std::string::npos) {
-    return std::make_unique<PeriodicStops>(
-        parseSeconds(text.substr(kPeriodic.size(), colon - kPeriodic.size()), text),
-        parseSeconds(text.substr(colon + 1), text));
+    return std::make_unique<PeriodicStops>(parseSeconds(text.substr(kPeriodic.size(), colon - kPeriodic.size()), text),
+                                           parseSeconds(text.substr(colon + 1), text));
   }
   throw std::invalid_argument("policy '" + text + "' is not known (none, periodic:EVERY_S:HOLD_S)");
 }

@@ -20,8 +20,7 @@ using slipnav::Config;
 
 CommandLine commandLine() {
   CommandLine command_line("simulate", "Drives a simulated rover in closed loop and measures its navigation.");
-  command_line
-      .choice("terrain", {"paved", "unpaved", "gravel", "rough", "rocking"}, "the ground", "rough")
+  command_line.choice("terrain", {"paved", "unpaved", "gravel", "rough", "rocking"}, "the ground", "rough")
       .option("distance", "M", "metres to drive after the initialisation", "150")
       .option("seed", "N", "makes terrain, slip and sensor errors", "1")
       .option("policy", "P", "when to stop: none, periodic:EVERY_S:HOLD_S", "periodic:12:3")

@@ -19,30 +19,30 @@ class ReplayEquality : public test::ReplayFixture {};
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Keeps the last level of each status by its name.
-ros::Subscriber listenToDiagnostics(std::map<std::string, int>& levels) {
+/// Keeps whether each status was well the last time, by its name.
+ros::Subscriber listenToDiagnostics(std::map<std::string, bool>& well) {
   const boost::function<void(const diagnostic_msgs::DiagnosticArray::ConstPtr&)> note =
-      [&levels](const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
+      [&well](const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
         for (const diagnostic_msgs::DiagnosticStatus& status : message->status) {
-          levels[status.name] = status.level;
+          well[status.name] = status.level == diagnostic_msgs::DiagnosticStatus::OK;
         }
       };
   return ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, note);
 }
 
 TEST_F(ReplayEquality, AtTwentyTimesRealTime) {
-  std::map<std::string, int> levels;
-  ros::Subscriber diagnostics = listenToDiagnostics(levels);
+  std::map<std::string, bool> well;
+  ros::Subscriber diagnostics = listenToDiagnostics(well);
   const BagEvaluation offline = replayAndCompare(bag_->path(), 20.0);
   EXPECT_TRUE(offline.problems.empty());
   EXPECT_LT(offline.report.metrics.horizontal_max_m.value(), 1.0);
-  const std::map<std::string, int> all_well = {
-      {"filter: /filter", 0}, {"initializer: /initializer", 0}, {"ins: /ins", 0}};
-  for (int i = 0; i < 50 && levels != all_well; ++i) {  // they come once a second
+  const std::map<std::string, bool> everyone = {
+      {"filter: /filter", true}, {"initializer: /initializer", true}, {"ins: /ins", true}};
+  for (int i = 0; i < 50 && well != everyone; ++i) {  // they come once a second
     ros::spinOnce();
     ros::WallDuration(0.1).sleep();
   }
-  EXPECT_EQ(levels, all_well);
+  EXPECT_EQ(well, everyone);
 }
 
 TEST_F(ReplayEquality, AgainAfterTheClockWentBackAndAsFastAsItGoes) { replayAndCompare(bag_->path(), 100.0); }

@@ -5,9 +5,7 @@
 namespace slipnav {
 namespace {
 
-WheelGeometry geometry() {
-  return WheelGeometry({{"left", 0.1, 0.0, 0.5, 1.0}, {"right", 0.1, 0.0, -0.5, 1.0}}, 1.0);
-}
+WheelGeometry geometry() { return WheelGeometry({{"left", 0.1, 0.0, 0.5, 1.0}, {"right", 0.1, 0.0, -0.5, 1.0}}, 1.0); }
 
 /// A right turn at 1 m/s and 0.4 rad/s: the left wheel's place moves at 1.2 m/s, the right one's at 0.8 m/s.
 Estimate turning() {

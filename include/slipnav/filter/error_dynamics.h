@@ -80,7 +80,7 @@ class ErrorDynamics {
   ErrorVector prior_variance_;
   ErrorVector spectral_density_;  ///< continuous, one-sided in time: variance per second
   double slip_impulse_variance_;
-  ErrorVector decay_rate_;        ///< 1/s, zero for constants and random walks
+  ErrorVector decay_rate_;  ///< 1/s, zero for constants and random walks
 };
 
 }  // namespace slipnav

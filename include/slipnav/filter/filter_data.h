@@ -16,7 +16,7 @@ struct InitialState {
   NavigationState nav;
   VehicleState vehicle;
   ErrorCovariance P = ErrorCovariance::Identity();
-  Geodetic origin;  ///< of the map frame
+  Geodetic origin;               ///< of the map frame
   double tremor_variance = 0.0;  ///< of the velocity at standstill as learned so far [m²/s²]; 0: not yet
 };
 

@@ -91,9 +91,9 @@ class FilterEngine {
   RingQueue<WheelMotion> wheels_;  ///< not yet applied, by stamp
   RingQueue<PositionFix> fixes_;   ///< likewise
   Nanoseconds newest_wheels_ = 0;
-  Nanoseconds slipping_until_ = 0;         ///< a slip impulse makes the wheel speed useless until then
+  Nanoseconds slipping_until_ = 0;       ///< a slip impulse makes the wheel speed useless until then
   double recent_wheel_speed_mps_ = 0.0;  ///< of the samples before the present one, smoothed
-  MotionAverage average_;  ///< over the wheel interval that is open
+  MotionAverage average_;                ///< over the wheel interval that is open
   Estimate estimate_;
 };
 

@@ -21,8 +21,8 @@ struct NonholonomicParams {
 Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavigationState& state,
                                const VehicleState& vehicle, const Vector3& lever_b);
 
-/// Whether the rover slides sideways so much that the lateral constraint says nothing: the slip angle is beyond its limit
-/// and the lateral speed is more than the constraint's own noise can explain.
+/// Whether the rover slides sideways so much that the lateral constraint says nothing: the slip angle is beyond its
+/// limit and the lateral speed is more than the constraint's own noise can explain.
 bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& motion, const VehicleState& vehicle,
                          double lateral_variance);
 

@@ -26,8 +26,8 @@ struct WheelOdometryParams {
 /// (errors in variables), and were it a product of estimated states, the direction in which speed and slip cannot be
 /// told apart would turn with every update and the filter would believe that it knows them.
 /// @param motion means over the odometry interval; @param lever_b IMU to reference point
-Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps, double slipping_speed_mps,
-                                    const BodyMotion& motion, const NavigationState& state,
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
+                                    double slipping_speed_mps, const BodyMotion& motion, const NavigationState& state,
                                     const VehicleState& vehicle, const Vector3& lever_b);
 
 /// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z.

@@ -13,8 +13,8 @@ struct Output {
   Nanoseconds stamp = 0;
   Vector3 position_enu_m = Vector3::Zero();
   Quaternion q_flu_to_enu = Quaternion::Identity();
-  Vector3 velocity_flu_mps = Vector3::Zero();       ///< over ground, base_link axes
-  Vector3 angular_rate_flu_radps = Vector3::Zero();  ///< w.r.t. the planet, base_link axes
+  Vector3 velocity_flu_mps = Vector3::Zero();          ///< over ground, base_link axes
+  Vector3 angular_rate_flu_radps = Vector3::Zero();    ///< w.r.t. the planet, base_link axes
   Covariance6 pose_covariance = Covariance6::Zero();   ///< position [m], then rotation about fixed ENU axes [rad]
   Covariance6 twist_covariance = Covariance6::Zero();  ///< velocity, then angular rate, base_link axes
 };

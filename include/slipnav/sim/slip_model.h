@@ -42,7 +42,7 @@ struct Footing {
 struct Slippage {
   double left = 0.0;  ///< part of the left wheels' surface speed by which that side falls behind
   double right = 0.0;
-  double lateral = 0.0;  ///< sideways over forward speed, positive to the right
+  double lateral = 0.0;        ///< sideways over forward speed, positive to the right
   double turn_centre_m = 0.0;  ///< ahead of base_link: the point that does not move sideways in a turn
   double heave_m = 0.0;        ///< of the body over the smooth relief
   double heave_slope = 0.0;    ///< its derivative by the travel

@@ -7,9 +7,9 @@
 
 namespace slipnav::sim {
 
-/// At the end of each IMU interval the body is off its smooth motion by a random offset of micrometres, with the velocity
-/// that belongs to it, and a random attitude, in proportion to the speed; a tremor is left at rest. The IMU senses how these change. They are real
-/// motion and part of the truth.
+/// At the end of each IMU interval the body is off its smooth motion by a random offset of micrometres, with the
+/// velocity that belongs to it, and a random attitude, in proportion to the speed; a tremor is left at rest. The IMU
+/// senses how these change. They are real motion and part of the truth.
 class Vibration {
  public:
   /// @param factor on the ground's vibration
