@@ -7,9 +7,9 @@
 
 namespace slipnav {
 
-/// Roll and pitch of a body at rest from its mean specific force.
+/// Roll and pitch of a body at rest from its mean specific force f_ib^b.
 /// @return roll, pitch [rad]
-Vector2 levelAtRest(const Vector3& mean_f_ib_b);
+Vector2 levelAtRest(const Vector3& f);
 
 /// Direction of gravity's reaction at the start of a drive, in the body axes of that instant.
 ///
