@@ -110,7 +110,7 @@ TEST_P(RoughDrives, CovarianceIsHonestAtEveryMinute) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Policies, RoughDrives, ::testing::Values("periodic:12:3", "periodic:30:3"),
-                         [](const auto& info) { return std::string(info.index == 0 ? "Every12s" : "Every30s"); });
+                         [](const auto& policy) { return std::string(policy.index == 0 ? "Every12s" : "Every30s"); });
 
 }  // namespace
 }  // namespace slipnav::test
