@@ -13,7 +13,9 @@
 #include "slipnav/measurement/imu_mount.h"
 #include "slipnav/measurement/wheel_geometry.h"
 #include "slipnav/navigator/pipeline.h"
+#include "slipnav/overlay/overlay_params.h"
 #include "slipnav/sim/params.h"
+#include "slipnav/stop/stop_params.h"
 
 namespace slipnav {
 
@@ -41,6 +43,7 @@ struct Config {
   StationaryParams stationary;
   FilterParams filter;
   InitializationParams initialization;
+  OverlayParams overlay;
   sim::SimulatorParams simulator;
 
   void visit(ParameterVisitor& v);
