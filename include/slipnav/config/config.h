@@ -43,6 +43,7 @@ struct Config {
   StationaryParams stationary;
   FilterParams filter;
   InitializationParams initialization;
+  StopParams stop;
   OverlayParams overlay;
   sim::SimulatorParams simulator;
 
