@@ -37,6 +37,15 @@ bool PlanarDeadReckoning::addSpeed(const SpeedSample& speed) {
   return true;
 }
 
+PlanarTrack PlanarDeadReckoning::takeTrack() {
+  PlanarTrack taken;
+  taken.swap(track_);
+  if (!taken.empty()) {
+    track_.push_back(taken.back());
+  }
+  return taken;
+}
+
 double PlanarDeadReckoning::gyroBias() const {
   return standstill_s_ >= options_.min_standstill_s ? standstill_angle_rad_ / standstill_s_ : 0.0;
 }

@@ -120,6 +120,19 @@ std::optional<TruthSample> toTruthSample(const geometry_msgs::PoseStamped& messa
   return toTruthSample(message.header.stamp, message.pose);
 }
 
+EstimateSample toEstimateSample(const nav_msgs::Odometry& message) {
+  const geometry_msgs::Quaternion& q = message.pose.pose.orientation;
+  EstimateSample sample;
+  sample.stamp = toNanoseconds(message.header.stamp);
+  sample.position_enu_m = toVector(message.pose.pose.position);
+  sample.q_flu_to_enu = Quaternion(q.w, q.x, q.y, q.z);
+  sample.covariance_enu_m2 =
+      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data())
+          .topLeftCorner<3, 3>();
+  sample.speed_mps = message.twist.twist.linear.x;
+  return sample;
+}
+
 NavigationState toNavigationState(const nav_msgs::Odometry& message, const LocalFrame& origin,
                                   const Vector3& imu_position_b) {
   const geometry_msgs::Quaternion& q = message.pose.pose.orientation;

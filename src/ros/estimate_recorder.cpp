@@ -16,16 +16,7 @@ void EstimateRecorder::insert(Nanoseconds stamp, const Value& value, std::map<Na
 }
 
 void EstimateRecorder::add(const nav_msgs::Odometry& message) {
-  EstimateSample sample;
-  sample.stamp = toNanoseconds(message.header.stamp);
-  const geometry_msgs::Point& position = message.pose.pose.position;
-  const geometry_msgs::Quaternion& q = message.pose.pose.orientation;
-  sample.position_enu_m = {position.x, position.y, position.z};
-  sample.q_flu_to_enu = Quaternion(q.w, q.x, q.y, q.z);
-  sample.covariance_enu_m2 =
-      Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(message.pose.covariance.data())
-          .topLeftCorner<3, 3>();
-  sample.speed_mps = message.twist.twist.linear.x;
+  const EstimateSample sample = toEstimateSample(message);
   insert(sample.stamp, sample, estimates_);
 }
 

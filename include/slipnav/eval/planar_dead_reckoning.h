@@ -44,6 +44,8 @@ class PlanarDeadReckoning {
 
   /// The start pose, then one sample per wheel epoch; empty before start().
   const PlanarTrack& track() const { return track_; }
+  /// Hands the track out and goes on with its newest pose alone, for those who must not let it grow.
+  PlanarTrack takeTrack();
   /// Mean of the vertical gyro over the initial standstill [rad/s]; zero when there was none long enough.
   double gyroBias() const;
 

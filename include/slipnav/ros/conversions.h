@@ -15,6 +15,7 @@
 #include <string>
 
 #include "slipnav/config/frames.h"
+#include "slipnav/eval/estimate.h"
 #include "slipnav/eval/truth_track.h"
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/measurement/imu_mount.h"
@@ -43,6 +44,9 @@ void fill(const GnssFix& fix, const std::string& frame_id, sensor_msgs::NavSatFi
 /// A pose of truth, in whatever frame it is. Nothing when it is not finite.
 std::optional<TruthSample> toTruthSample(const nav_msgs::Odometry& message);
 std::optional<TruthSample> toTruthSample(const geometry_msgs::PoseStamped& message);
+
+/// Pose, forward speed and covariance of the position; what Odometry does not say keeps its default.
+EstimateSample toEstimateSample(const nav_msgs::Odometry& message);
 
 /// A true pose and velocity as the state of the IMU. The frame of the message is taken as east-north-up about `origin`.
 NavigationState toNavigationState(const nav_msgs::Odometry& message, const LocalFrame& origin,

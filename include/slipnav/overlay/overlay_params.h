@@ -1,0 +1,24 @@
+#pragma once
+/// How the overlay is drawn.
+
+#include <string>
+
+#include "slipnav/config/parameter_visitor.h"
+
+namespace slipnav {
+
+struct OverlayParams {
+  double publish_period_s = 0.5;
+  double point_spacing_m = 0.1;
+  int max_points = 4000;
+  int max_stops = 200;
+  double slip_full_scale = 0.3;
+  double text_height_m = 0.6;
+  double panel_east_m = -13.0;
+  double panel_north_m = 9.0;
+  double legend_east_m = 8.0;
+  double legend_north_m = 9.0;
+  void visit(ParameterVisitor& v);
+};
+
+}  // namespace slipnav

@@ -1,0 +1,161 @@
+/// slipnav/Overlay: what rviz shows of a drive.
+///
+/// In: odometry, slip, initialization, error_forecast, stop; imu/data and the wheels for dead reckoning; truth/fix,
+/// truth/odometry or truth/pose. Out: path, truth/path, wheel_path, markers, model/joint_states.
+
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/NavSatFix.h>
+#include <slipnav/Initialization.h>
+#include <slipnav/Slip.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <boost/make_shared.hpp>
+#include <cmath>
+#include <optional>
+
+#include "slipnav/ros/conversions.h"
+#include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/internal_topics.h"
+#include "slipnav/ros/model_joints.h"
+#include "slipnav/ros/overlay_markers.h"
+#include "slipnav/ros/wheel_input.h"
+
+namespace slipnav {
+
+class OverlayNodelet : public CoreNodelet {
+ private:
+  void begin(const Config& config) override {
+    params_ = config.overlay;
+    map_ = config.frames.map;
+    planet_.emplace(Planet::byName(config.planet));
+    mount_.emplace(config.imu.mount);
+    wheel_input_.emplace(config);
+    const MountParams& antenna = config.truth_mount;
+    picture_.emplace(params_, config.truth, Vector3(antenna.x_m, antenna.y_m, antenna.z_m));
+    markers_.emplace(params_, map_);
+  }
+
+  void subscribe(const Config& config) override {
+    listen<Initialization>(kInitializationTopic, &OverlayNodelet::onInitialization);
+    listen<nav_msgs::Odometry>(config.topics.odometry, &OverlayNodelet::onEstimate);
+    listen<Slip>(config.topics.slip, &OverlayNodelet::onSlip);
+    listen<ErrorForecast>(config.topics.error_forecast, &OverlayNodelet::onErrorForecast);
+    listen<StopStatus>(config.topics.stop, &OverlayNodelet::onStop);
+    listen<sensor_msgs::Imu>(config.topics.imu, &OverlayNodelet::onImu);
+    listen<sensor_msgs::JointState>(config.topics.joint_states, &OverlayNodelet::onWheels<sensor_msgs::JointState>);
+    listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &OverlayNodelet::onWheels<nav_msgs::Odometry>);
+    listen<sensor_msgs::NavSatFix>(config.topics.truth_fix, &OverlayNodelet::onTruthFix);
+    listen<nav_msgs::Odometry>(config.topics.truth_odometry,
+                               &OverlayNodelet::onTruthPose<nav_msgs::Odometry, TruthSource::kOdometry>);
+    listen<geometry_msgs::PoseStamped>(config.topics.truth_pose,
+                                       &OverlayNodelet::onTruthPose<geometry_msgs::PoseStamped, TruthSource::kPose>);
+  }
+
+  void advertise(const Config& config) override {
+    path_publisher_ = publisher<nav_msgs::Path>(config.topics.path, true);
+    truth_publisher_ = publisher<nav_msgs::Path>(config.topics.truth_path, true);
+    wheel_publisher_ = publisher<nav_msgs::Path>(config.topics.wheel_path, true);
+    markers_publisher_ = publisher<visualization_msgs::MarkerArray>(config.topics.markers, true);
+    joints_publisher_ = publisher<sensor_msgs::JointState>(kModelJointsTopic);
+  }
+
+  void onInitialization(const Initialization::ConstPtr& message) {
+    if (!message->done) {
+      picture_->clear();
+      messages_ = {};
+      return;
+    }
+    const Geodetic origin{degToRad(message->latitude_deg), degToRad(message->longitude_deg), message->height_m};
+    picture_->start(LocalFrame(*planet_, origin), toNanoseconds(message->header.stamp));
+  }
+
+  void onEstimate(const nav_msgs::Odometry::ConstPtr& message) { picture_->add(toEstimateSample(*message)); }
+
+  void onSlip(const Slip::ConstPtr& message) {
+    const bool defined = std::isfinite(message->mean_ratio);
+    picture_->addSlip(toNanoseconds(message->header.stamp),
+                      defined ? std::optional<double>(message->mean_ratio) : std::nullopt, message->stationary);
+  }
+
+  void onErrorForecast(const ErrorForecast::ConstPtr& message) { messages_.error_forecast = message; }
+  void onStop(const StopStatus::ConstPtr& message) { messages_.stop = message; }
+
+  void onImu(const sensor_msgs::Imu::ConstPtr& message) { picture_->wheelInput().add(toImuSample(*message, *mount_)); }
+
+  template <class Message>
+  void onWheels(const boost::shared_ptr<const Message>& message) {
+    if (const std::optional<WheelMotion> wheels = wheel_input_->take(*message)) {
+      picture_->wheelInput().add(SpeedSample{wheels->stamp, wheels->motion.forward_mps});
+      joints_.add(*wheels);
+      if (joints_publisher_.getNumSubscribers() > 0) {
+        joints_publisher_.publish(joints_.message());
+      }
+    }
+  }
+
+  void onTruthFix(const sensor_msgs::NavSatFix::ConstPtr& message) {
+    if (const std::optional<GnssFix> fix = toGnssFix(*message)) {
+      picture_->truthInput().add(*fix);
+    }
+  }
+
+  template <class Message, TruthSource source>
+  void onTruthPose(const boost::shared_ptr<const Message>& message) {
+    if (const std::optional<TruthSample> truth = toTruthSample(*message)) {
+      picture_->truthInput().add(source, *truth);
+    }
+  }
+
+  void onTick() override {
+    const bool due = now() >= published_at_s_ + params_.publish_period_s;
+    if (due && picture_->revision() != published_revision_) {
+      published_at_s_ = now();
+      published_revision_ = picture_->revision();
+      publishAll();
+    }
+  }
+
+  /// The topics are latched: who comes later gets the newest.
+  void publishAll() {
+    path_publisher_.publish(toPath(picture_->track(), map_));
+    truth_publisher_.publish(toPath(picture_->truth(), map_));
+    wheel_publisher_.publish(toPath(picture_->wheels(), map_));
+    markers_publisher_.publish(markers_->make(*picture_, messages_));
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
+    using diagnostic_msgs::DiagnosticStatus;
+    const bool showing = picture_ && picture_->newest();
+    status.summary(DiagnosticStatus::OK, showing ? "drawing" : "waiting for the estimate");
+    if (picture_) {
+      status.add("points of the path", picture_->track().points().size());
+      status.add("points of the truth", picture_->truth().points().size());
+      status.add("points of the wheel path", picture_->wheels().points().size());
+      status.add("stops", picture_->stops().stops().size());
+    }
+  }
+
+  OverlayParams params_;
+  std::string map_;
+  std::optional<Planet> planet_;
+  std::optional<ImuMount> mount_;
+  std::optional<WheelInput> wheel_input_;
+  std::optional<DrivePicture> picture_;
+  std::optional<OverlayMarkers> markers_;
+  OverlayMessages messages_;
+  ModelJoints joints_;
+  double published_at_s_ = 0.0;
+  std::uint64_t published_revision_ = 0;
+  ros::Publisher path_publisher_;
+  ros::Publisher truth_publisher_;
+  ros::Publisher wheel_publisher_;
+  ros::Publisher markers_publisher_;
+  ros::Publisher joints_publisher_;
+};
+
+}  // namespace slipnav
+
+PLUGINLIB_EXPORT_CLASS(slipnav::OverlayNodelet, nodelet::Nodelet)
