@@ -91,6 +91,9 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
   const Output out = output_->make(estimate, P);
   estimates_.push_back({out.stamp, out.position_enu_m, out.pose_covariance.topLeftCorner<3, 3>(), out.q_flu_to_enu,
                         out.velocity_flu_mps.x(), slip_, estimate.stationary});
+  if (on_estimate_) {
+    on_estimate_(estimate, P);
+  }
 }
 
 /// The samples that came before the start was known still count: it may lie before them.

@@ -4,15 +4,27 @@
 
 namespace slipnav {
 
+DriveMoment SimulatedDrive::moment() const {
+  const sim::TruthState& truth = rover_.truth();
+  return {truth.stamp, truth.standstill, driver_.initialisationDriveDone()};
+}
+
+VelocityCommand SimulatedDrive::operatorCommand() {
+  const sim::Command command = driver_.command(rover_.truth());
+  return {{command.forward_mps, 0.0, 0.0}, {0.0, 0.0, command.yaw_rate_radps}};
+}
+
+sim::Measurements SimulatedDrive::execute(const VelocityCommand& command) {
+  return rover_.step({command.linear_mps.x(), command.angular_radps.z()});
+}
+
 void simulateDrive(const sim::SimulatorParams& params, const Planet& planet, StopPolicy& policy,
                    const DriveSink& sink) {
-  sim::RoverSimulator rover(params, planet);
-  sim::Driver driver(params);
-  while (!driver.finished()) {
-    const sim::TruthState& truth = rover.truth();
-    const bool hold = driver.initialisationDriveDone() && policy.hold(truth.stamp, truth.standstill);
-    const sim::Measurements measurements = rover.step(driver.command(truth, hold));
-    sink(measurements, rover.truth());
+  SimulatedDrive drive(params, planet);
+  while (!drive.finished()) {
+    const DriveMoment moment = drive.moment();
+    const sim::Measurements measurements = drive.execute(policy.command(drive.operatorCommand(), moment));
+    sink(measurements, drive.truth());
   }
 }
 

@@ -24,10 +24,10 @@ Route Driver::routeOf(const SimulatorParams& params) {
           kSpareRoute * (drive.initial_straight_m + drive.distance_m) + kSpareRoute_m};
 }
 
-Command Driver::command(const TruthState& truth, bool hold) {
+Command Driver::command(const TruthState& truth) {
   advancePhase(truth);
   const bool driving = phase_ == Phase::kInitialStraight || phase_ == Phase::kRoute;
-  if (hold || !driving) {
+  if (!driving) {
     return {};
   }
   return {params_.speed_mps, steer(truth)};

@@ -21,6 +21,11 @@ double parseSeconds(const std::string& text, const std::string& whole) {
   return value;
 }
 
+StopParams activated(StopParams params) {
+  params.mode = "active";
+  return params;
+}
+
 }  // namespace
 
 PeriodicStops::PeriodicStops(double every_s, double hold_s) : every_s_(every_s), hold_s_(hold_s) {
@@ -29,31 +34,40 @@ PeriodicStops::PeriodicStops(double every_s, double hold_s) : every_s_(every_s),
   }
 }
 
-bool PeriodicStops::hold(Nanoseconds stamp, bool standstill) {
+VelocityCommand PeriodicStops::command(const VelocityCommand& in, const DriveMoment& moment) {
+  return moment.on_route && hold(moment) ? VelocityCommand{} : in;
+}
+
+bool PeriodicStops::hold(const DriveMoment& moment) {
   if (driving_since_ == 0) {
-    driving_since_ = stamp;
+    driving_since_ = moment.stamp;
   }
   if (!holding_) {
-    holding_ = toSeconds(stamp - driving_since_) >= every_s_;
+    holding_ = toSeconds(moment.stamp - driving_since_) >= every_s_;
     standing_since_ = 0;
     return holding_;
   }
-  if (!standstill) {
+  if (!moment.standstill) {
     return true;
   }
   if (standing_since_ == 0) {
-    standing_since_ = stamp;
+    standing_since_ = moment.stamp;
   }
-  if (toSeconds(stamp - standing_since_) >= hold_s_) {
+  if (toSeconds(moment.stamp - standing_since_) >= hold_s_) {
     holding_ = false;
-    driving_since_ = stamp;
+    driving_since_ = moment.stamp;
   }
   return holding_;
 }
 
-std::unique_ptr<StopPolicy> makeStopPolicy(const std::string& text) {
+AutonomousStops::AutonomousStops(const StopParams& params) : supervisor_(activated(params)) {}
+
+std::unique_ptr<StopPolicy> makeStopPolicy(const std::string& text, const StopParams& params) {
   if (text == "none") {
     return std::make_unique<NeverStop>();
+  }
+  if (text == "autonomous") {
+    return std::make_unique<AutonomousStops>(params);
   }
   const std::string kPeriodic = "periodic:";
   const std::size_t colon = text.find(':', kPeriodic.size());
@@ -61,7 +75,7 @@ std::unique_ptr<StopPolicy> makeStopPolicy(const std::string& text) {
     return std::make_unique<PeriodicStops>(parseSeconds(text.substr(kPeriodic.size(), colon - kPeriodic.size()), text),
                                            parseSeconds(text.substr(colon + 1), text));
   }
-  throw std::invalid_argument("policy '" + text + "' is not known (none, periodic:EVERY_S:HOLD_S)");
+  throw std::invalid_argument("policy '" + text + "' is not known (none, periodic:EVERY_S:HOLD_S, autonomous)");
 }
 
 }  // namespace slipnav

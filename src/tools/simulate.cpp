@@ -7,8 +7,7 @@
 
 #include "slipnav/config/command_line.h"
 #include "slipnav/config/config_options.h"
-#include "slipnav/eval/offline_run.h"
-#include "slipnav/eval/simulated_drive.h"
+#include "slipnav/eval/simulated_run.h"
 #include "slipnav/ros/bag_evaluation.h"
 #include "slipnav/ros/bag_writer.h"
 
@@ -23,7 +22,7 @@ CommandLine commandLine() {
   command_line.choice("terrain", {"paved", "unpaved", "gravel", "rough", "rocking"}, "the ground", "rough")
       .option("distance", "M", "metres to drive after the initialisation", "150")
       .option("seed", "N", "makes terrain, slip and sensor errors", "1")
-      .option("policy", "P", "when to stop: none, periodic:EVERY_S:HOLD_S", "periodic:12:3")
+      .option("policy", "P", "when to stop: none, periodic:EVERY_S:HOLD_S, autonomous", "periodic:12:3")
       .option("out", "DIR", "where metrics.json, timeline.csv, forecasts.csv, estimate.tum, truth.tum go")
       .option("bag", "FILE", "record the sensors and the truth, as a robot would")
       .flag("report", "plots into the output directory");
@@ -44,22 +43,17 @@ Config configuration(const Arguments& arguments) {
 
 /// Drives, navigates and records; returns what there is to say about it.
 slipnav::RunReport drive(const Config& config, slipnav::StopPolicy& policy, const std::string& bag) {
-  const slipnav::Planet planet = slipnav::Planet::byName(config.planet);
-  const slipnav::WheelGeometry geometry = config.wheelGeometry();
   std::optional<slipnav::BagWriter> recorder;
   if (!bag.empty()) {
     recorder.emplace(bag, config);
   }
-  slipnav::OfflineRun run(config, true);
-  slipnav::simulateDrive(config.simulator, planet, policy,
+  slipnav::SimulatedRun run(config);
+  run.onEstimate([&](const slipnav::Estimate& estimate, const slipnav::ErrorCovariance& P) {
+    policy.observe(slipnav::observationOf(estimate, P, config.stationary.wheel_speed_mps));
+  });
+  slipnav::simulateDrive(config.simulator, slipnav::Planet::byName(config.planet), policy,
                          [&](const slipnav::sim::Measurements& measurements, const slipnav::sim::TruthState& truth) {
-                           pushMeasurements(measurements, geometry, run);
-                           if (measurements.truth) {
-                             run.addTruthFix(*measurements.truth);
-                           }
-                           if (truth.distance_m > config.simulator.drive.initial_straight_m) {
-                             run.setTruth(toNavState(truth, planet, config.imu.mount.position_b()), true);
-                           }
+                           run.add(measurements, truth);
                            if (recorder) {
                              recorder->write(measurements, truth);
                            }
@@ -67,7 +61,7 @@ slipnav::RunReport drive(const Config& config, slipnav::StopPolicy& policy, cons
   if (recorder) {
     recorder->close();
   }
-  return run.finish({});
+  return run.finish();
 }
 
 int run(int argc, char** argv) {
@@ -78,7 +72,7 @@ int run(int argc, char** argv) {
     return 0;
   }
   const Config config = configuration(arguments);
-  const std::unique_ptr<slipnav::StopPolicy> policy = slipnav::makeStopPolicy(arguments.text("policy"));
+  const std::unique_ptr<slipnav::StopPolicy> policy = slipnav::makeStopPolicy(arguments.text("policy"), config.stop);
   const std::clock_t cpu = std::clock();
   const auto wall = std::chrono::steady_clock::now();
   slipnav::RunReport report = drive(config, *policy, arguments.text("bag"));

@@ -79,7 +79,7 @@ DriveResult runDrive(const Config& config, const std::string& policy) {
   Judge judge(planet, config.imu.mount.position_b());
   Pipeline pipeline(planet, config.navigation(),
                     [&judge](const Estimate& estimate, const ErrorCovariance& P) { judge.compare(estimate, P); });
-  const std::unique_ptr<StopPolicy> stops = makeStopPolicy(policy);
+  const std::unique_ptr<StopPolicy> stops = makeStopPolicy(policy, config.stop);
   simulateDrive(config.simulator, planet, *stops,
                 [&](const sim::Measurements& measurements, const sim::TruthState& truth) {
                   judge.addTruth(truth);

@@ -102,7 +102,7 @@ Mismatch largestMismatch(const SimulatorParams& params, const std::string& plane
   Mismatch largest;
   Nanoseconds last = rover.truth().stamp;
   while (!driver.finished()) {
-    const ImuSample imu = rover.step(driver.command(rover.truth(), false)).imu;
+    const ImuSample imu = rover.step(driver.command(rover.truth())).imu;
     integrator.add(imu, toSeconds(imu.stamp - last));
     last = imu.stamp;
     const Matrix3 C_b_to_enu = trueAttitude(frame, rover.truth());

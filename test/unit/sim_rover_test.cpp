@@ -30,8 +30,8 @@ void run(const SimulatorParams& params, const Hold& hold, const Look& look) {
   RoverSimulator rover(params, Planet::byName("earth"));
   Driver driver(params);
   while (!driver.finished()) {
-    const Command command = driver.command(rover.truth(), hold(rover.truth()));
-    const Measurements measurements = rover.step(command);
+    const Command command = driver.command(rover.truth());
+    const Measurements measurements = rover.step(hold(rover.truth()) ? Command{} : command);
     look(rover.truth(), measurements);
     if (secondsIn(rover.truth()) > 1000.0) {
       throw std::runtime_error("the drive does not end");
@@ -227,7 +227,7 @@ TEST(SimDriver, RestsDrivesStraightThenTheDistanceThenRests) {
   const double heading_rad = eulerFrom_q_b_to_n(rover.truth().q_b_to_n).z();
   double straight_m = -1.0;
   while (!driver.finished()) {
-    const Command command = driver.command(rover.truth(), false);
+    const Command command = driver.command(rover.truth());
     if (secondsIn(rover.truth()) < params.drive.initial_rest_s) {
       EXPECT_TRUE(rover.truth().standstill);
     }

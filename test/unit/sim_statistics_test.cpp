@@ -90,7 +90,7 @@ DriveStatistics statisticsOf(const std::string& terrain, int seed, double distan
   double route_start_m = -1.0;
   bool moved = false;
   while (!driver.finished()) {
-    const Measurements m = rover.step(driver.command(rover.truth(), false));
+    const Measurements m = rover.step(driver.command(rover.truth()));
     const TruthState& truth = rover.truth();
     moved = moved || !truth.standstill;
     reckoning.addImu(m.imu, 1.0 / params.imu.rate_hz, !moved);

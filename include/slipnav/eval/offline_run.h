@@ -2,6 +2,7 @@
 /// A whole drive through the navigation as fast as it goes, and what there is to say about it afterwards.
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "slipnav/config/config.h"
@@ -18,6 +19,9 @@ class OfflineRun {
   /// @param with_baselines also run the pipeline without zero updates, for no_zupt_error_pct
   OfflineRun(const Config& config, bool with_baselines);
 
+  /// Who else is to have every estimate, as soon as there is one.
+  void onEstimate(FilterEngine::EstimateSink sink) { on_estimate_ = std::move(sink); }
+
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
   void push(const PositionFix& fix);
@@ -28,8 +32,8 @@ class OfflineRun {
   void addTruthPose(const TruthSample& pose) { truth_poses_.push_back(pose); }
 
   const Pipeline& pipeline() const { return pipeline_; }
-  /// Whether the last wheel interval was judged a standstill.
-  bool isStationary() const { return !estimates_.empty() && estimates_.back().stationary; }
+  /// Stamp of the newest estimate, 0 before the first.
+  Nanoseconds newestStamp() const { return estimates_.empty() ? 0 : estimates_.back().stamp; }
 
   /// Throws std::runtime_error when the initialisation never ended, saying what it was waiting for.
   RunReport finish(const TruthAlignment& alignment) const;
@@ -43,6 +47,7 @@ class OfflineRun {
   Config config_;
   Planet planet_;
   Pipeline pipeline_;
+  FilterEngine::EstimateSink on_estimate_;
   std::optional<OutputMaker> output_;
   EstimateTrack estimates_;
   std::optional<double> slip_;

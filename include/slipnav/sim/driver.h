@@ -15,9 +15,9 @@ class Driver {
   /// The path that these parameters give.
   static Route routeOf(const SimulatorParams& params);
 
-  /// Command for the coming interval. With `hold` the rover is stopped (or kept stopped) whatever the script says;
-  /// the drive goes on where it was when the hold is released.
-  Command command(const TruthState& truth, bool hold);
+  /// Command for the coming interval. A rover that is given another one, because somebody stops it, is led on from
+  /// where it is.
+  Command command(const TruthState& truth);
 
   /// The initial rest and the straight drive are over: the distance that counts has begun.
   bool initialisationDriveDone() const { return phase_ >= Phase::kRoute; }

@@ -4,7 +4,7 @@
 ///   RoverSimulator rover(params, Planet::byName("earth"));
 ///   Driver driver(params);
 ///   while (!driver.finished()) {
-///     const Measurements m = rover.step(driver.command(rover.truth(), hold));
+///     const Measurements m = rover.step(driver.command(rover.truth()));
 ///     ...
 ///   }
 ///

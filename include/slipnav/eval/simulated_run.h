@@ -1,0 +1,33 @@
+#pragma once
+/// Navigates and measures a simulated drive while it goes on.
+
+#include "slipnav/eval/offline_run.h"
+#include "slipnav/eval/simulated_drive.h"
+
+namespace slipnav {
+
+class SimulatedRun {
+ public:
+  explicit SimulatedRun(const Config& config);
+
+  /// Who is to have every estimate, as soon as there is one.
+  void onEstimate(FilterEngine::EstimateSink sink) { run_.onEstimate(std::move(sink)); }
+
+  /// One interval of the drive.
+  void add(const sim::Measurements& measurements, const sim::TruthState& truth);
+
+  /// Stamp of the newest estimate, 0 before the first.
+  Nanoseconds newestStamp() const { return run_.newestStamp(); }
+
+  /// Throws std::runtime_error when the initialisation never ended, saying what it was waiting for.
+  RunReport finish() const { return run_.finish({}); }
+
+ private:
+  Planet planet_;
+  WheelGeometry geometry_;
+  Vector3 imu_position_b_;
+  double initial_straight_m_;
+  OfflineRun run_;
+};
+
+}  // namespace slipnav
