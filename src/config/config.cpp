@@ -48,6 +48,7 @@ void Config::visit(ParameterVisitor& v) {
   v.group("stationary", stationary, "when the rover counts as standing still");
   v.group("filter", filter, "error-state Kalman filter");
   v.group("initialization", initialization, "how the start is found");
+  v.group("forecast", forecast, "how slip and position error are forecast");
   v.group("overlay", overlay, "what rviz shows of a drive");
   v.group("stop", stop, "when the rover stops for a zero update, and how");
   v.group("simulator", simulator, "the simulated rover, its ground and its sensors");

@@ -8,6 +8,7 @@ namespace {
 
 /// Weight of the newest sample in the recent wheel speed.
 constexpr double kRecentSpeedGain = 0.3;
+constexpr double kIntervalTolerance_s = 1e-3;
 constexpr std::size_t kMaxWaiting = 4096;  // wheel samples kept while there is no initial state yet
 
 template <class Sample>
@@ -62,6 +63,7 @@ void FilterEngine::initialise(const InitialState& initial) {
     tremor_.setVariance(initial.tremor_variance);
   }
   average_.restart(0);
+  vertical_average_.restart(0);
   recent_wheel_speed_mps_ = 0.0;
   slipping_until_ = 0;
   steps_.clear();
@@ -176,21 +178,31 @@ bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
     const WheelMotion wheels = wheels_.front();
     wheels_.pop_front();
     const double interval_s = toSeconds(wheels.stamp - average_.start());
-    if (average_.start() != 0) {
-      average_.add(step, v_mean_b, average_.start(), wheels.stamp);
-    }
+    addMotion(step, v_mean_b, wheels.stamp);
     const std::optional<BodyMotion> motion = average_.mean();
     detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
     if (average_.start() != 0 && interval_s <= setup_.filter.max_wheel_interval_s && motion) {
       corrected = applyWheelSample(wheels, *motion) || corrected;
+    } else {
+      vertical_average_.restart(wheels.stamp);
     }
     average_.restart(wheels.stamp);
     recent_wheel_speed_mps_ += kRecentSpeedGain * (wheels.motion.forward_mps - recent_wheel_speed_mps_);
   }
-  if (average_.start() != 0) {
-    average_.add(step, corrected ? referenceVelocity(step) : v_mean_b, average_.start(), step.state.stamp);
-  }
+  addMotion(step, corrected ? referenceVelocity(step) : v_mean_b, step.state.stamp);
   return corrected;
+}
+
+void FilterEngine::addMotion(const InsStep& step, const Vector3& v_mean_b, Nanoseconds until) {
+  if (average_.start() != 0) {
+    vertical_average_.add(step, v_mean_b, average_.start(), until);
+    average_.add(step, v_mean_b, average_.start(), until);
+  }
+}
+
+bool FilterEngine::verticalMeanIsDue() const {
+  const std::optional<BodyMotion> mean = vertical_average_.mean();
+  return mean && mean->duration_s >= setup_.nonholonomic.vertical_interval_s - kIntervalTolerance_s;
 }
 
 bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion) {
@@ -203,12 +215,17 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
     tremor_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
   }
   const std::uint64_t zero_updates = update_.status(kZeroVelocity).accepted;
+  const std::uint64_t wheel_updates = update_.status(kForwardSpeed).accepted;
   const std::uint64_t wheel_rejections = update_.status(kForwardSpeed).rejected;
   const bool corrected = update(at_rest ? restingMeasurements(motion) : movingMeasurements(wheels, motion));
+  if (at_rest || verticalMeanIsDue()) {
+    vertical_average_.restart(wheels.stamp);
+  }
   if (update_.status(kForwardSpeed).rejected > wheel_rejections) {
     dynamics_.loosenFastSlip(P_);
     slipping_until_ = wheels.stamp + fromSeconds(setup_.vehicle.slip_impulse_time_s);
   }
+  estimate_.wheel_speed_used = update_.status(kForwardSpeed).accepted > wheel_updates;
   estimate_.stationary = at_rest && (!use_zupt_ || update_.status(kZeroVelocity).accepted > zero_updates);
   return corrected;
 }
@@ -218,8 +235,9 @@ MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const
   MeasurementSet set;
   if (use_wheel_) {
     if (wheels.stamp > slipping_until_) {
+      const double slip_variance = P_.block<3, 3>(kWheelScale, kWheelScale).sum();
       set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, recent_wheel_speed_mps_,
-                                                     motion, state_, vehicle_, lever_b));
+                                                     motion, state_, vehicle_, slip_variance, lever_b));
     }
     if (wheels.motion.has_yaw_rate) {
       set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheels.motion.yaw_rate_radps, motion));
@@ -230,7 +248,10 @@ MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const
     if (!isExcessiveSideSlip(setup_.nonholonomic, motion, vehicle_, lateral.variance(0))) {
       set.add(kLateral, lateral);
     }
-    set.add(kVertical, verticalMeasurement(setup_.nonholonomic, motion, state_, vehicle_, lever_b));
+    if (verticalMeanIsDue()) {
+      set.add(kVertical,
+              verticalMeasurement(setup_.nonholonomic, *vertical_average_.mean(), state_, vehicle_, lever_b));
+    }
   }
   return set;
 }

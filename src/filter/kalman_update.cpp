@@ -7,7 +7,6 @@
 namespace slipnav {
 namespace {
 
-using Gain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kErrorStates, kMaxMeasurementRows>;
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxMeasurementRows, kMaxMeasurementRows>;
 
 /// P Hᵀ, the innovation covariance S and its Cholesky factor.
@@ -21,7 +20,13 @@ struct Innovation {
     }
   }
 
-  Gain PHt;
+  KalmanGain PHt;
+
+  KalmanGain gain() const {
+    KalmanGain K = cholesky.solve(PHt.transpose()).transpose();
+    K.row(kYawScale).setZero();
+    return K;
+  }
   Square S;
   Eigen::LLT<Square> cholesky;
   bool usable = false;
@@ -41,17 +46,21 @@ std::optional<double> normalisedInnovationSquared(const Measurement& measurement
   return measurement.residual.dot(weighted);
 }
 
+std::optional<KalmanGain> kalmanGain(const Measurement& measurement, const ErrorCovariance& P) {
+  const Innovation innovation(measurement, P);
+  return innovation.usable ? std::optional(innovation.gain()) : std::nullopt;
+}
+
 std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P) {
   const Innovation innovation(measurement, P);
   if (!innovation.usable) {
     return std::nullopt;
   }
-  const Gain& PHt = innovation.PHt;
-  Gain K = innovation.cholesky.solve(PHt.transpose()).transpose();
-  K.row(kYawScale).setZero();
+  const KalmanGain& PHt = innovation.PHt;
+  const KalmanGain K = innovation.gain();
   // (I−KH) P (I−KH)ᵀ + K R Kᵀ, multiplied out
   const ErrorCovariance cross = K * PHt.transpose();
-  const Gain KS = K * innovation.S;
+  const KalmanGain KS = K * innovation.S;
   P += KS * K.transpose() - cross - cross.transpose();
   P = 0.5 * (P + P.transpose()).eval();
   return ErrorVector(-K * measurement.residual);

@@ -13,12 +13,20 @@ double square(double x) { return x * x; }
 }  // namespace
 
 void NonholonomicParams::visit(ParameterVisitor& v) {
-  v.number("lateral_std_mps", lateral_std_mps, {1e-6, 10.0}, "1σ of the lateral speed beside the side slip [m/s]");
+  v.number("lateral_std_mps", lateral_std_mps, {1e-6, 10.0},
+           "1σ of the lateral speed beside the side slip, whatever the forward speed [m/s]");
+  v.number("lateral_slope_std", lateral_slope_std, {0.0, 1.0},
+           "1σ of the lateral speed as a ratio of the forward speed: the sway between stones");
   v.number("lateral_turn_std_m", lateral_turn_std_m, {0.0, 10.0},
            "1σ of the lateral speed per heading rate: how far the centre of turn wanders along the vehicle [m]");
-  v.number("vertical_std_mps", vertical_std_mps, {1e-6, 10.0}, "1σ of the speed off the ground [m/s]");
+  v.number("vertical_std_mps", vertical_std_mps, {1e-6, 10.0},
+           "1σ of the speed off the ground, whatever the forward speed [m/s]");
+  v.number("vertical_slope_std", vertical_slope_std, {0.0, 1.0},
+           "1σ of the speed off the ground as a ratio of the forward speed: the heave over stones");
   v.number("vertical_turn_std_m", vertical_turn_std_m, {0.0, 10.0},
            "1σ of the speed off the ground per roll and pitch rate [m]");
+  v.number("vertical_interval_s", vertical_interval_s, {0.0, 10.0},
+           "time over which the speed off the ground is averaged, at least a wheel interval [s]");
   v.number("max_side_slip_deg", max_side_slip_deg, {0.1, 90.0},
            "slip angle beyond which the lateral constraint is dropped [°]");
 }
@@ -33,7 +41,8 @@ Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotio
   m.H = H_v.row(1) + angle * H_v.row(0);
   m.H(0, kMountYaw) = v_x;
   m.H(0, kSideSlip) = -v_x;
-  m.variance(0) = square(params.lateral_std_mps) + square(params.lateral_turn_std_m * motion.omega_ib_b.z());
+  m.variance(0) = square(params.lateral_std_mps) + square(params.lateral_slope_std * v_x) +
+                  square(params.lateral_turn_std_m * motion.omega_ib_b.z());
   return m;
 }
 
@@ -51,8 +60,8 @@ Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMoti
   m.residual(0) = -(motion.v_eb_b.z() - vehicle.mount_pitch_rad * v_x);
   m.H = H_v.row(2) - vehicle.mount_pitch_rad * H_v.row(0);
   m.H(0, kMountPitch) = -v_x;
-  m.variance(0) =
-      square(params.vertical_std_mps) + square(params.vertical_turn_std_m) * motion.omega_ib_b.head<2>().squaredNorm();
+  m.variance(0) = square(params.vertical_std_mps) + square(params.vertical_slope_std * v_x) +
+                  square(params.vertical_turn_std_m) * motion.omega_ib_b.head<2>().squaredNorm();
   return m;
 }
 

@@ -126,13 +126,17 @@ TEST(MeasurementNoise, GrowsWithSpeedAndTurns) {
   EXPECT_NEAR(yawRateMeasurement(wheel, 0.0, motion).variance(0), std::pow(degToRad(2.0), 2) + 0.1 * 0.1, 1e-12);
   NonholonomicParams ground;
   ground.lateral_std_mps = 0.01;
+  ground.lateral_slope_std = 0.02;
   ground.lateral_turn_std_m = 0.3;
   ground.vertical_std_mps = 0.03;
+  ground.vertical_slope_std = 0.04;
   ground.vertical_turn_std_m = 0.2;
-  EXPECT_NEAR(lateralMeasurement(ground, motion, state, {}, Vector3::Zero()).variance(0), 0.01 * 0.01 + 0.06 * 0.06,
-              1e-12);
-  EXPECT_NEAR(verticalMeasurement(ground, motion, state, {}, Vector3::Zero()).variance(0), 0.03 * 0.03 + 0.1 * 0.1,
-              1e-12);
+  const double v_x = motion.v_eb_b.x();
+  ASSERT_GT(v_x, 0.1);
+  EXPECT_NEAR(lateralMeasurement(ground, motion, state, {}, Vector3::Zero()).variance(0),
+              0.01 * 0.01 + std::pow(0.02 * v_x, 2) + 0.06 * 0.06, 1e-12);
+  EXPECT_NEAR(verticalMeasurement(ground, motion, state, {}, Vector3::Zero()).variance(0),
+              0.03 * 0.03 + std::pow(0.04 * v_x, 2) + 0.1 * 0.1, 1e-12);
 }
 
 TEST(PositionFixModel, PullsTheImuThroughTheLeverArm) {

@@ -10,6 +10,7 @@
 #include "slipnav/config/topics.h"
 #include "slipnav/earth/planet.h"
 #include "slipnav/eval/truth_params.h"
+#include "slipnav/forecast/forecast_params.h"
 #include "slipnav/measurement/imu_mount.h"
 #include "slipnav/measurement/wheel_geometry.h"
 #include "slipnav/navigator/pipeline.h"
@@ -43,6 +44,7 @@ struct Config {
   StationaryParams stationary;
   FilterParams filter;
   InitializationParams initialization;
+  ForecastParams forecast;
   StopParams stop;
   OverlayParams overlay;
   sim::SimulatorParams simulator;

@@ -22,13 +22,13 @@ struct ImuNoiseParams {
 /// How vehicle and ground behave between measurements.
 struct VehicleModelParams {
   double wheel_scale_std = 0.01;
-  double slow_slip_std = 0.10;
+  double slow_slip_std = 0.08;
   double slow_slip_time_s = 30.0;
   double fast_slip_std = 0.022;
   double fast_slip_time_s = 1.5;
   double slip_impulse_std = 1.0;
   double slip_impulse_time_s = 1.5;
-  double side_slip_std_deg = 2.0;
+  double side_slip_std_deg = 1.7;
   double side_slip_time_s = 10.0;
   double mount_pitch_std_deg = 0.3;
   double mount_yaw_std_deg = 0.3;

@@ -63,9 +63,10 @@ struct Estimate {
   Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean rate of the step [rad/s]
   VehicleState vehicle;
   bool stationary = false;
-  bool has_wheels = false;  ///< a wheel sample ended in this step
-  WheelMotion wheels;       ///< the last one
-  BodyMotion motion;        ///< means over its interval, vehicle reference point, IMU axes
+  bool wheel_speed_used = false;  ///< the forward speed of that sample passed its gate
+  bool has_wheels = false;        ///< a wheel sample ended in this step
+  WheelMotion wheels;             ///< the last one
+  BodyMotion motion;              ///< means over its interval, vehicle reference point, IMU axes
 };
 
 }  // namespace slipnav

@@ -62,6 +62,8 @@ class FilterEngine {
   Vector3 referenceVelocity(const InsStep& step) const;
   void inflateForGap(double gap_s);
   bool applyWheels(const InsStep& step, const Vector3& v_mean_b);
+  void addMotion(const InsStep& step, const Vector3& v_mean_b, Nanoseconds until);
+  bool verticalMeanIsDue() const;
   bool applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion);
   MeasurementSet movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const;
   MeasurementSet restingMeasurements(const BodyMotion& motion) const;
@@ -94,6 +96,7 @@ class FilterEngine {
   Nanoseconds slipping_until_ = 0;       ///< a slip impulse makes the wheel speed useless until then
   double recent_wheel_speed_mps_ = 0.0;  ///< of the samples before the present one, smoothed
   MotionAverage average_;                ///< over the wheel interval that is open
+  MotionAverage vertical_average_;       ///< over the wheel intervals since the last vertical constraint
   Estimate estimate_;
 };
 

@@ -28,6 +28,12 @@ struct Measurement {
 /// Nothing when the residual is not finite or the innovation covariance not positive definite.
 std::optional<double> normalisedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P);
 
+using KalmanGain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kErrorStates, kMaxMeasurementRows>;
+
+/// P Hᵀ (H P Hᵀ + R)⁻¹, with zero for the consider state kYawScale. The residual does not matter.
+/// Nothing when the innovation covariance is not positive definite.
+std::optional<KalmanGain> kalmanGain(const Measurement& measurement, const ErrorCovariance& P);
+
 /// Updates P and returns the estimated error, to be taken out of the state. Nothing, and P untouched, when the residual
 /// is not finite or the innovation covariance not positive definite.
 ///

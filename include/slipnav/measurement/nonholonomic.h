@@ -9,10 +9,13 @@
 namespace slipnav {
 
 struct NonholonomicParams {
-  double lateral_std_mps = 0.0058;
+  double lateral_std_mps = 0.002;
+  double lateral_slope_std = 0.0073;
   double lateral_turn_std_m = 0.03;
-  double vertical_std_mps = 0.0098;
-  double vertical_turn_std_m = 0.02;
+  double vertical_std_mps = 0.001;
+  double vertical_slope_std = 0.0033;
+  double vertical_turn_std_m = 0.0075;
+  double vertical_interval_s = 1.0;
   double max_side_slip_deg = 15.0;
   void visit(ParameterVisitor& v);
 };
@@ -26,7 +29,9 @@ Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotio
 bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& motion, const VehicleState& vehicle,
                          double lateral_variance);
 
-/// Vertical speed of the reference point: v_z − θ_m v_x = 0.
+/// Vertical speed of the reference point: v_z − θ_m v_x = 0. What the body rises over a stone it comes down again: the
+/// noise is that of a difference of heights. Means over `vertical_interval_s` are taken, long enough for it to pass for
+/// white.
 Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion,
                                 const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b);
 

@@ -25,10 +25,12 @@ struct WheelOdometryParams {
 /// was just before. The slip ratio is defined by u itself, so ū ≈ u; but were it u, noise of u would look like slip
 /// (errors in variables), and were it a product of estimated states, the direction in which speed and slip cannot be
 /// told apart would turn with every update and the filter would believe that it knows them.
-/// @param motion means over the odometry interval; @param lever_b IMU to reference point
+/// While the rover brakes or accelerates ū is not u; what that does to the product counts as noise.
+/// @param wheel_speed_mps u; @param slipping_speed_mps ū; @param motion means over the odometry interval
+/// @param slip_variance of the estimated κ + s_slow + s_fast; @param lever_b IMU to reference point
 Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
                                     double slipping_speed_mps, const BodyMotion& motion, const NavigationState& state,
-                                    const VehicleState& vehicle, const Vector3& lever_b);
+                                    const VehicleState& vehicle, double slip_variance, const Vector3& lever_b);
 
 /// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z.
 Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps,

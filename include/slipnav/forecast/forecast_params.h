@@ -1,0 +1,33 @@
+#pragma once
+/// What can be configured about forecasts.
+
+#include <string>
+
+#include "slipnav/config/parameter_visitor.h"
+#include "slipnav/forecast/gaussian_process_slip_model.h"
+#include "slipnav/forecast/sigma_points.h"
+
+namespace slipnav {
+
+struct ForecastParams {
+  double threshold_m = 3.0;
+  std::string schedule = "sliding";
+  std::string bound = "growth";
+  double sigmas = 3.0;
+  double window_s = 15.0;
+  double interval_s = 1.0;
+  double horizon_s = 60.0;
+  double step_s = 0.5;
+  double wheel_interval_s = 0.1;
+  double max_age_s = 60.0;
+  double speed_window_s = 3.0;
+  SlipModelParameters slip;
+  SigmaPointParameters sigma_points;
+
+  void visit(ParameterVisitor& v);
+
+  /// Whether slip errors enter the covariance as states, and not as white noise as in the paper.
+  bool correlatesSlip() const { return slip.model != "paper"; }
+};
+
+}  // namespace slipnav
