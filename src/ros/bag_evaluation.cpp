@@ -98,7 +98,7 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
 }
 
 void plotReport(const std::string& directory) {
-  ChildProcess plotter({besideThisExecutable("plot_report.py"), directory});
+  ChildProcess plotter({packageExecutable("plot_report.py"), directory});
   if (plotter.wait() != 0) {
     throw std::runtime_error("the plots could not be made");
   }

@@ -24,6 +24,7 @@ struct StopParams {
   double slide_after_s = 1.5;
   double retry_after_slide_s = 30.0;
   double estimate_timeout_s = 2.0;
+  double command_timeout_s = 1.0;
   void visit(ParameterVisitor& v);
 
   StopMode stopMode() const;
