@@ -91,6 +91,7 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   result.estimates = estimates;
   result.truth = report.truth;
   result.forecasts = report.forecasts;
+  result.diagnostics = report.diagnostics;
   result.metrics = computeMetrics(input);
   result.metrics.wheel_only_error_pct = report.metrics.wheel_only_error_pct;
   result.metrics.realtime_factor = result.metrics.duration_s / wall_s;
