@@ -14,8 +14,8 @@ using visualization_msgs::Marker;
 
 constexpr double kSigmas = 3.0;
 constexpr double kThinLine_m = 0.06;
-constexpr double kSlipWidth_m = 0.45;
-constexpr double kStopDiameter_m = 0.8;
+constexpr double kSlipWidth_m = 0.6;
+constexpr double kStopDiameter_m = 0.9;
 constexpr float kFanAlpha = 0.7F;
 constexpr double kForecastLifetime_s = 5.0;
 

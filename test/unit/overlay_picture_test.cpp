@@ -146,7 +146,21 @@ TEST_F(Drive, IsGatheredFromAllThatIsSaid) {
   EXPECT_NEAR(picture_.stops().stops()[0].duration_s, 3.0, 0.2);
   EXPECT_NEAR(*picture_.stops().stops()[0].before.true_m, 0.1, 1e-4);
   EXPECT_EQ(*picture_.track().points().back().slip, 0.25);
-  EXPECT_GT(picture_.truth().points().size(), 100U);
+  EXPECT_GT(picture_.truth().points().size(), 80U);
+}
+
+TEST_F(Drive, TruthIsDrawnAtTheHeightOfTheEstimateUnlessAskedOtherwise) {
+  for (const bool flat : {true, false}) {
+    params_.flat = flat;
+    DrivePicture picture(params_, align("auto"), Vector3::Zero());
+    picture.start(frame(), 0);
+    picture.truthInput().add(fixAt(1.5, {1.5, 0.0, 7.0}));
+    picture.add(estimateAt(1.0));
+    picture.add(estimateAt(2.0));
+    ASSERT_EQ(picture.truth().points().size(), 1U);
+    EXPECT_NEAR(picture.truth().points()[0].position_enu_m.z(), flat ? 0.0 : 7.0, 1e-6);
+    EXPECT_NEAR(picture.newestPair()->truth.position_enu_m.z(), 7.0, 1e-6);
+  }
 }
 
 TEST_F(Drive, AClockThatGoesBackClearsIt) {

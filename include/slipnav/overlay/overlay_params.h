@@ -12,6 +12,7 @@ struct OverlayParams {
   double point_spacing_m = 0.1;
   int max_points = 4000;
   int max_stops = 200;
+  bool flat = true;
   double slip_full_scale = 0.3;
   double text_height_m = 0.7;
   std::string frame = "overlay";
