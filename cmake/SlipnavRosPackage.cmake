@@ -11,6 +11,7 @@ find_package(catkin REQUIRED COMPONENTS
   rosbag
   rosbag_storage
   roscpp
+  rosgraph_msgs
   sensor_msgs
   std_msgs
   std_srvs

@@ -83,12 +83,17 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
     output_.emplace(planet_, pipeline_.initial()->origin, -config_.imu.mount.position_b(),
                     pipeline_.filter().dynamics().gyroNoiseDensity());
     estimates_.clear();
+    filter_rows_.clear();
     startWheelOnly(output_->make(estimate, P));
   }
   if (estimate.has_wheels) {
     slip_ = slipOf(estimate);
   }
+  filter_rows_.add(estimate, P, pipeline_.filter());
   const Output out = output_->make(estimate, P);
+  if (on_output_) {
+    on_output_(out);
+  }
   estimates_.push_back({out.stamp, out.position_enu_m, out.pose_covariance.topLeftCorner<3, 3>(), out.q_flu_to_enu,
                         out.velocity_flu_mps.x(), slip_, estimate.stationary});
   if (on_estimate_) {
@@ -150,6 +155,8 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
     input.no_zupt_error_pct = computeMetrics(plain).enu_error_pct;
   }
   report.metrics = computeMetrics(input);
+  report.diagnostics.filter = filter_rows_.rows();
+  report.diagnostics.wheel_only = input.wheel_only;
   return report;
 }
 

@@ -176,6 +176,10 @@ void writeRunReport(const std::string& directory, const RunReport& report) {
   }
   writeTimelineCsv((folder / "timeline.csv").string(), report.estimates, report.truth);
   writeForecastsCsv((folder / "forecasts.csv").string(), report.forecasts);
+  writeFilterCsv((folder / "filter.csv").string(), report.diagnostics.filter);
+  writeWheelTrackCsv((folder / "wheel_track.csv").string(), report.diagnostics.wheel_only);
+  writeSlipForecastsCsv((folder / "slip_forecasts.csv").string(), report.diagnostics.slip_forecasts);
+  writeNeesCsv((folder / "nees.csv").string(), report.estimates, report.truth);
   writeMetricsJson((folder / "metrics.json").string(), report.metrics);
 }
 

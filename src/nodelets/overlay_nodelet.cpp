@@ -1,7 +1,7 @@
 /// slipnav/Overlay: what rviz shows of a drive.
 ///
 /// In: odometry, slip, initialization, error_forecast, stop; imu/data and the wheels for dead reckoning; truth/fix,
-/// truth/odometry or truth/pose. Out: path, truth/path, wheel_path, markers, model/joint_states.
+/// truth/odometry or truth/pose. Out: path, truth/path, wheel_path, markers, model/joint_states, TF of overlay.frame.
 
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -10,6 +10,7 @@
 #include <sensor_msgs/NavSatFix.h>
 #include <slipnav/Initialization.h>
 #include <slipnav/Slip.h>
+#include <tf2_ros/transform_broadcaster.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <boost/make_shared.hpp>
@@ -72,7 +73,22 @@ class OverlayNodelet : public CoreNodelet {
     picture_->start(LocalFrame(*planet_, origin), toNanoseconds(message->header.stamp));
   }
 
-  void onEstimate(const nav_msgs::Odometry::ConstPtr& message) { picture_->add(toEstimateSample(*message)); }
+  void onEstimate(const nav_msgs::Odometry::ConstPtr& message) {
+    picture_->add(toEstimateSample(*message));
+    sendFrame(*message);
+  }
+
+  /// At the rover, but with the directions of the map: panel and legend neither turn nor rock.
+  void sendFrame(const nav_msgs::Odometry& message) {
+    geometry_msgs::TransformStamped transform;
+    transform.header = message.header;
+    transform.child_frame_id = params_.frame;
+    transform.transform.translation.x = message.pose.pose.position.x;
+    transform.transform.translation.y = message.pose.pose.position.y;
+    transform.transform.translation.z = message.pose.pose.position.z;
+    transform.transform.rotation.w = 1.0;
+    tf_.sendTransform(transform);
+  }
 
   void onSlip(const Slip::ConstPtr& message) {
     const bool defined = std::isfinite(message->mean_ratio);
@@ -147,6 +163,7 @@ class OverlayNodelet : public CoreNodelet {
   std::optional<OverlayMarkers> markers_;
   OverlayMessages messages_;
   ModelJoints joints_;
+  tf2_ros::TransformBroadcaster tf_;
   double published_at_s_ = 0.0;
   std::uint64_t published_revision_ = 0;
   ros::Publisher path_publisher_;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kDistanceStep_m = 0.05;
 constexpr double kSigmas = 3.0;
 
-/// The flat wheel path lies at the height at which the estimate starts.
+/// Dead reckoning in the plane knows no height; it takes that of the estimate.
 TrackPoint pointOf(const PlanarSample& pose, double height_m) {
   const Quaternion heading(Eigen::AngleAxisd(0.5 * kPi - pose.heading_rad, Vector3::UnitZ()));
   return {pose.stamp, {pose.east_m, pose.north_m, height_m}, heading, std::nullopt};
@@ -27,7 +27,8 @@ PlanarSample planarPose(const EstimateSample& estimate) {
 }  // namespace
 
 DrivePicture::DrivePicture(const OverlayParams& params, const TruthParams& truth, const Vector3& truth_lever_flu_m)
-    : track_(params.point_spacing_m, static_cast<std::size_t>(params.max_points)),
+    : flat_(params.flat),
+      track_(params.point_spacing_m, static_cast<std::size_t>(params.max_points)),
       truth_(params.point_spacing_m, static_cast<std::size_t>(params.max_points)),
       wheels_(params.point_spacing_m, static_cast<std::size_t>(params.max_points)),
       stops_(static_cast<std::size_t>(params.max_stops)),
@@ -90,15 +91,18 @@ void DrivePicture::add(const EstimateSample& estimate) {
 
 void DrivePicture::takeTruth(const EstimateSample& earlier, const EstimateSample& later) {
   for (const TruthPair& pair : truth_follower_.follow(earlier, later)) {
-    truth_.add({pair.truth.stamp, pair.truth.position_enu_m, pair.estimate.q_flu_to_enu, std::nullopt});
+    TrackPoint point{pair.truth.stamp, pair.truth.position_enu_m, pair.estimate.q_flu_to_enu, std::nullopt};
+    if (flat_) {
+      point.position_enu_m.z() = pair.estimate.position_enu_m.z();
+    }
+    truth_.add(point);
     pair_ = pair;
   }
 }
 
 void DrivePicture::takeWheelPath() {
-  const double height_m = track_.points().front().position_enu_m.z();
   for (const PlanarSample& pose : wheel_path_.take()) {
-    wheels_.add(pointOf(pose, height_m));
+    wheels_.add(pointOf(pose, newest_->position_enu_m.z()));
   }
 }
 

@@ -91,6 +91,7 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   result.estimates = estimates;
   result.truth = report.truth;
   result.forecasts = report.forecasts;
+  result.diagnostics = report.diagnostics;
   result.metrics = computeMetrics(input);
   result.metrics.wheel_only_error_pct = report.metrics.wheel_only_error_pct;
   result.metrics.realtime_factor = result.metrics.duration_s / wall_s;
@@ -98,7 +99,7 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
 }
 
 void plotReport(const std::string& directory) {
-  ChildProcess plotter({besideThisExecutable("plot_report.py"), directory});
+  ChildProcess plotter({packageExecutable("plot_report.py"), directory});
   if (plotter.wait() != 0) {
     throw std::runtime_error("the plots could not be made");
   }

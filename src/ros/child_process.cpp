@@ -1,11 +1,10 @@
 #include "slipnav/ros/child_process.h"
 
+#include <dlfcn.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -64,14 +63,13 @@ int ChildProcess::wait() noexcept {
   return *status_;
 }
 
-std::string besideThisExecutable(const std::string& name) {
-  std::array<char, 4096> path = {};
-  const ssize_t length = readlink("/proc/self/exe", path.data(), path.size() - 1);
-  if (length <= 0) {
-    throw std::runtime_error("the path of this executable cannot be found out");
+std::string packageExecutable(const std::string& name) {
+  Dl_info library = {};
+  if (dladdr(reinterpret_cast<const void*>(&packageExecutable), &library) == 0) {
+    throw std::runtime_error("the folder of this package's libraries cannot be found out");
   }
-  const std::string self(path.data(), static_cast<std::size_t>(length));
-  return self.substr(0, self.find_last_of('/') + 1) + name;
+  const std::string path = library.dli_fname;
+  return path.substr(0, path.find_last_of('/') + 1) + "slipnav/" + name;
 }
 
 }  // namespace slipnav

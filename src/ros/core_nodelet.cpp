@@ -37,6 +37,7 @@ void CoreNodelet::onInit() {
     advertise(config_);
   } catch (const std::exception& error) {
     subscribers_.clear();
+    services_.clear();
     NODELET_ERROR("%s stays idle: %s", getName().c_str(), error.what());
   }
 }
@@ -48,6 +49,19 @@ void CoreNodelet::guarded(const std::function<void()>& work) {
   } catch (const std::exception& error) {
     NODELET_ERROR_THROTTLE(1.0, "%s: %s", getName().c_str(), error.what());
   }
+}
+
+std::string CoreNodelet::answer(const std::function<void()>& work) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!begun_) {
+    return getName() + " still waits for the extrinsics";
+  }
+  try {
+    work();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
 }
 
 void CoreNodelet::handle(const std::function<void()>& work) {

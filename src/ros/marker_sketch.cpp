@@ -21,7 +21,7 @@ geometry_msgs::Point toPoint(const Vector3& position) {
   return point;
 }
 
-MarkerSketch::MarkerSketch(const std::string& frame_id, Nanoseconds stamp) {
+MarkerSketch::MarkerSketch(const std::string& frame_id, Nanoseconds stamp, bool locked) : locked_(locked) {
   header_.frame_id = frame_id;
   header_.stamp = toRosTime(stamp);
 }
@@ -30,6 +30,7 @@ visualization_msgs::Marker& MarkerSketch::add(const std::string& name, int id, i
                                               const Colour& colour) {
   visualization_msgs::Marker& marker = markers_.markers.emplace_back();
   marker.header = header_;
+  marker.frame_locked = static_cast<std::uint8_t>(locked_);
   marker.ns = name;
   marker.id = id;
   marker.type = type;

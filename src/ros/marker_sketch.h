@@ -16,7 +16,8 @@ geometry_msgs::Point toPoint(const Vector3& position);
 
 class MarkerSketch {
  public:
-  MarkerSketch(const std::string& frame_id, Nanoseconds stamp);
+  /// @param locked markers move with their frame between one publication and the next
+  MarkerSketch(const std::string& frame_id, Nanoseconds stamp, bool locked);
 
   /// All without points: a polyline, separate segments and triangles of the given width [m].
   visualization_msgs::Marker& add(const std::string& name, int id, int type, double width_m, const Colour& colour);
@@ -32,6 +33,7 @@ class MarkerSketch {
 
  private:
   std_msgs::Header header_;
+  bool locked_;
   visualization_msgs::MarkerArray markers_;
 };
 

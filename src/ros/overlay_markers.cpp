@@ -14,9 +14,9 @@ using visualization_msgs::Marker;
 
 constexpr double kSigmas = 3.0;
 constexpr double kThinLine_m = 0.06;
-constexpr double kSlipWidth_m = 0.45;
-constexpr double kStopDiameter_m = 0.8;
-constexpr float kFanAlpha = 0.45F;
+constexpr double kSlipWidth_m = 0.6;
+constexpr double kStopDiameter_m = 0.9;
+constexpr float kFanAlpha = 0.7F;
 constexpr double kForecastLifetime_s = 5.0;
 
 // Heights against the track that keep apart, seen from above, what lies on the same spot [m].
@@ -66,7 +66,7 @@ std::string stopWords(const LoggedStop& stop) {
 }
 
 void drawStops(const DrivePicture& picture, const OverlayParams& params, MarkerSketch& sketch) {
-  constexpr double kTextRatio = 0.6;  // smaller than panel and legend
+  constexpr double kTextRatio = 0.75;  // smaller than panel and legend
   for (const LoggedStop& stop : picture.stops().stops()) {
     sketch.disc("stops", stop.number, raised(stop.position_enu_m, kStopHeight_m), kStopDiameter_m,
                 withAlpha(kStopColour, 0.8F));
@@ -152,16 +152,20 @@ nav_msgs::Path toPath(const DisplayTrack& track, const std::string& frame_id) {
 }
 
 visualization_msgs::MarkerArray OverlayMarkers::make(const DrivePicture& picture, const OverlayMessages& messages) {
-  MarkerSketch sketch(frame_id_, picture.newest() ? picture.newest()->stamp : 0);
+  const Nanoseconds stamp = picture.newest() ? picture.newest()->stamp : 0;
+  MarkerSketch sketch(frame_id_, stamp, false);
+  MarkerSketch beside_rover(params_.frame, stamp, true);
   if (picture.newest()) {
     drawSlip(picture, params_, sketch);
     drawForecast(picture, messages.error_forecast.get(), params_, sketch);
     drawStops(picture, params_, sketch);
     drawError(picture, sketch);
-    drawPanel(picture, messages, params_, sketch);
-    drawLegend(picture, params_, sketch);
+    drawPanel(picture, messages, params_, beside_rover);
+    drawLegend(params_, beside_rover);
   }
   visualization_msgs::MarkerArray array = sketch.markers();
+  array.markers.insert(array.markers.end(), beside_rover.markers().markers.begin(),
+                       beside_rover.markers().markers.end());
   std::set<Key> shown;
   for (const Marker& marker : array.markers) {
     shown.emplace(marker.ns, marker.id);

@@ -1,5 +1,6 @@
 #include "overlay_panel.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iomanip>
@@ -8,11 +9,29 @@
 namespace slipnav {
 namespace {
 
+using visualization_msgs::Marker;
+
 constexpr double kLineSpacing = 1.5;   ///< of text, as a multiple of its height
-constexpr double kLetterWidth = 0.46;  ///< mean, as a multiple of the height
+constexpr double kLetterWidth = 0.42;  ///< mean, as a multiple of the height
 constexpr double kSwatchLength_m = 1.6;
 constexpr double kSwatchWidth_m = 0.25;
 constexpr double kAboveGround_m = 1.5;  ///< all words float above whatever lies on the ground
+
+/// Of text, roughly: rviz centres it, and does not say how long it is.
+struct TextSize {
+  double width_m = 0.0;
+  double height_m = 0.0;
+};
+
+TextSize sizeOf(const std::string& words, double letter_height_m) {
+  std::istringstream lines(words);
+  TextSize size;
+  for (std::string line; std::getline(lines, line);) {
+    size.width_m = std::max(size.width_m, kLetterWidth * letter_height_m * static_cast<double>(line.size()));
+    size.height_m += letter_height_m;
+  }
+  return size;
+}
 
 std::string supervisorLine(const DrivePicture& picture, const StopStatus* stop) {
   if (stop == nullptr || stop->mode == StopStatus::MODE_OFF) {
@@ -45,8 +64,8 @@ std::string errorLine(const DrivePicture& picture) {
 }
 
 std::string forecastLine(const ErrorForecast& forecast) {
-  return "forecast " + formatted(forecast.horizontal_bound_m.back(), 2) + " m of " +
-         formatted(forecast.threshold_m, 1) + " m in " + formatted(forecast.times_s.back(), 0) + " s";
+  return "in " + formatted(forecast.times_s.back(), 0) + " s " + formatted(forecast.horizontal_bound_m.back(), 2) +
+         " m, threshold " + formatted(forecast.threshold_m, 1) + " m";
 }
 
 /// One line of the legend: a swatch that goes from one colour to another, and what it means.
@@ -87,30 +106,29 @@ void drawPanel(const DrivePicture& picture, const OverlayMessages& messages, con
   if (messages.error_forecast && !messages.error_forecast->horizontal_bound_m.empty()) {
     words += "\n" + forecastLine(*messages.error_forecast);
   }
-  const Vector3 offset(params.panel_east_m, params.panel_north_m, kAboveGround_m);
-  sketch.text("panel", 0, picture.newest()->position_enu_m + offset, params.text_height_m, kTextColour, words);
+  const TextSize size = sizeOf(words, params.text_height_m);
+  const Vector3 centre(params.panel_east_m + 0.5 * size.width_m, params.panel_north_m - 0.5 * size.height_m,
+                       kAboveGround_m);
+  sketch.text("panel", 0, centre, params.text_height_m, kTextColour, words);
 }
 
-void drawLegend(const DrivePicture& picture, const OverlayParams& params, MarkerSketch& sketch) {
-  const Vector3 offset(params.legend_east_m, params.legend_north_m, kAboveGround_m);
-  const Vector3 corner = picture.newest()->position_enu_m + offset;
-  // The pointer to the swatches is not kept: further markers move the array.
-  visualization_msgs::Marker swatches;
+void drawLegend(const OverlayParams& params, MarkerSketch& sketch) {
+  Marker lines;
   int row = 0;
   for (const Entry& entry : legendEntries(params)) {
-    const Vector3 begin = corner - Vector3(0.0, kLineSpacing * params.text_height_m * row, 0.0);
+    const double north_m = params.legend_north_m - kLineSpacing * params.text_height_m * row;
+    const Vector3 begin(params.legend_east_m, north_m, kAboveGround_m);
     const Vector3 end = begin + Vector3(kSwatchLength_m, 0.0, 0.0);
-    const double half_width_m = 0.5 * kLetterWidth * params.text_height_m * static_cast<double>(entry.meaning.size());
-    swatches.points.insert(swatches.points.end(), {toPoint(begin), toPoint(end)});
-    swatches.colors.insert(swatches.colors.end(), {toMessage(entry.from), toMessage(entry.to)});
+    lines.points.insert(lines.points.end(), {toPoint(begin), toPoint(end)});
+    lines.colors.insert(lines.colors.end(), {toMessage(entry.from), toMessage(entry.to)});
+    const double half_width_m = 0.5 * sizeOf(entry.meaning, params.text_height_m).width_m;
     sketch.text("legend", row + 1, end + Vector3(params.text_height_m + half_width_m, 0.0, 0.0), params.text_height_m,
                 kTextColour, entry.meaning);
     ++row;
   }
-  visualization_msgs::Marker& lines =
-      sketch.add("legend", 0, visualization_msgs::Marker::LINE_LIST, kSwatchWidth_m, kTextColour);
-  lines.points = swatches.points;
-  lines.colors = swatches.colors;
+  Marker& swatches = sketch.add("legend", 0, Marker::LINE_LIST, kSwatchWidth_m, kTextColour);
+  swatches.points = lines.points;
+  swatches.colors = lines.colors;
 }
 
 }  // namespace slipnav

@@ -11,11 +11,11 @@ namespace slipnav {
 /// Printf-style number: `formatted(0.123, 2)` is "0.12".
 std::string formatted(double value, int decimals);
 
-/// Supervisor, slip, distance and error in a few lines, beside the rover.
+/// Supervisor, slip, distance and error in a few lines. This and the legend are placed from the rover.
 void drawPanel(const DrivePicture& picture, const OverlayMessages& messages, const OverlayParams& params,
                MarkerSketch& sketch);
 
-/// What the colours mean, on the other side of the rover.
-void drawLegend(const DrivePicture& picture, const OverlayParams& params, MarkerSketch& sketch);
+/// What the colours mean.
+void drawLegend(const OverlayParams& params, MarkerSketch& sketch);
 
 }  // namespace slipnav

@@ -27,6 +27,8 @@ void StopParams::visit(ParameterVisitor& v) {
            "no stop for so long after one that ended in sliding, or never in standstill [s]");
   v.number("estimate_timeout_s", estimate_timeout_s, {0.1, 3600.0},
            "without an estimate for so long, commands pass and no stop is made [s]");
+  v.number("command_timeout_s", command_timeout_s, {0.1, 3600.0},
+           "diagnostics warn when cmd_vel_in has been silent for so long [s]");
 }
 
 StopMode StopParams::stopMode() const {

@@ -7,6 +7,7 @@
 
 #include "slipnav/config/command_line.h"
 #include "slipnav/eval/report.h"
+#include "slipnav/eval/track_comparison.h"
 #include "slipnav/ros/bag_evaluation.h"
 #include "slipnav/ros/parameters.h"
 #include "slipnav/ros/replay_session.h"
@@ -39,23 +40,6 @@ slipnav::ReplayOptions optionsOf(const Arguments& arguments) {
   return options;
 }
 
-/// How the recorded estimate compares with that of the offline run.
-void printComparison(const slipnav::EstimateTrack& recorded, const slipnav::EstimateTrack& offline) {
-  double largest_m = 0.0;
-  std::size_t common = 0;
-  for (std::size_t i = 0, j = 0; i < recorded.size() && j < offline.size();) {
-    if (recorded[i].stamp == offline[j].stamp) {
-      largest_m = std::max(largest_m, (recorded[i].position_enu_m - offline[j].position_enu_m).norm());
-      ++common;
-    }
-    const bool advance_recorded = recorded[i].stamp <= offline[j].stamp;
-    j += offline[j].stamp <= recorded[i].stamp ? 1 : 0;
-    i += advance_recorded ? 1 : 0;
-  }
-  std::cout << "replay: " << recorded.size() << " estimates, offline: " << offline.size() << ", in common: " << common
-            << ", largest difference: " << largest_m << " m\n";
-}
-
 int run(int argc, char** argv) {
   ros::V_string words;
   ros::removeROSArgs(argc, argv, words);
@@ -85,9 +69,8 @@ int run(int argc, char** argv) {
   if (arguments.given("out") && arguments.given("report")) {
     slipnav::plotReport(arguments.text("out"));
   }
-  printComparison(report.estimates, offline.report.estimates);
-  std::cout << slipnav::tableHeader() << slipnav::tableRow(slipnav::runName(options.bag), std::nullopt, report.metrics)
-            << std::flush;
+  std::cout << slipnav::comparisonText("replay", report.estimates, offline.report.estimates) << slipnav::tableHeader()
+            << slipnav::tableRow(slipnav::runName(options.bag), std::nullopt, report.metrics) << std::flush;
   return 0;
 }
 

@@ -82,15 +82,52 @@ TEST_F(Report, writesTheForecastsWithTheirColumns) {
             "1602774000.500000000,2,0.75,nan\n");
 }
 
+TEST_F(Report, writesTheStateOfTheFilter) {
+  RunReport report = smallReport();
+  FilterRow row;
+  row.stamp = 1'602'774'000'500'000'000;
+  row.wheel_speed_mps = 0.75;
+  row.accel_bias_flu_mps2 = {1.0, 2.0, 3.0};
+  row.accel_sigma_mps2 = {4.0, 5.0, 6.0};
+  row.gyro_bias_flu_radps = {7.0, 8.0, 9.0};
+  row.gyro_sigma_radps = {10.0, 11.0, 12.0};
+  row.nis[kForwardSpeed] = 0.5;
+  row.nis[kZeroRate] = 1.5;
+  report.diagnostics.filter = {row};
+  writeRunReport(folder_, report);
+  EXPECT_EQ(contentOf("filter.csv"),
+            "t,wheel_speed,accel_bias_x,accel_bias_y,accel_bias_z,accel_sigma_x,accel_sigma_y,accel_sigma_z,"
+            "gyro_bias_x,gyro_bias_y,gyro_bias_z,gyro_sigma_x,gyro_sigma_y,gyro_sigma_z,nis_forward_speed,"
+            "nis_yaw_rate,nis_lateral,nis_vertical,nis_zero_velocity,nis_zero_rate,nis_fix_position\n"
+            "1602774000.500000000,0.75,1,2,3,4,5,6,7,8,9,10,11,12,0.5,nan,nan,nan,nan,1.5,nan\n");
+}
+
+TEST_F(Report, writesBaselineAndSlipForecasts) {
+  RunReport report = smallReport();
+  report.diagnostics.wheel_only = {{1'602'774'000'500'000'000, 1.5, 2.5, 0.0}};
+  report.diagnostics.slip_forecasts = {{1'602'774'000'500'000'000, 0.1, 0.25, 0.125}};
+  writeRunReport(folder_, report);
+  EXPECT_EQ(contentOf("wheel_track.csv"), "t,east,north\n1602774000.500000000,1.5,2.5\n");
+  EXPECT_EQ(contentOf("slip_forecasts.csv"), "t,horizon_s,mean,stddev\n1602774000.500000000,0.1,0.25,0.125\n");
+}
+
+TEST_F(Report, writesTheNeesOfThePosition) {
+  writeRunReport(folder_, smallReport());
+  // Errors of 0.5, 0.5 and -3.25 m; variances 0.25, 4 and 9.
+  EXPECT_EQ(contentOf("nees.csv"), "t,nees\n1602774000.500000000,2.2361111\n");
+}
+
 TEST_F(Report, leavesAllFilesAndNothingElse) {
   writeRunReport(folder_, smallReport());
   EXPECT_EQ(filesInFolder(),
-            (std::vector<std::string>{"estimate.tum", "forecasts.csv", "metrics.json", "timeline.csv", "truth.tum"}));
+            (std::vector<std::string>{"estimate.tum", "filter.csv", "forecasts.csv", "metrics.json", "nees.csv",
+                                      "slip_forecasts.csv", "timeline.csv", "truth.tum", "wheel_track.csv"}));
   RunReport without_truth = smallReport();
   without_truth.truth = TruthTrack();
   writeRunReport(folder_, without_truth);
   EXPECT_EQ(filesInFolder(),
-            (std::vector<std::string>{"estimate.tum", "forecasts.csv", "metrics.json", "timeline.csv"}));
+            (std::vector<std::string>{"estimate.tum", "filter.csv", "forecasts.csv", "metrics.json", "nees.csv",
+                                      "slip_forecasts.csv", "timeline.csv", "wheel_track.csv"}));
 }
 
 TEST_F(Report, namesADirectoryItCannotCreate) {

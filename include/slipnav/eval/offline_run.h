@@ -1,6 +1,7 @@
 #pragma once
 /// A whole drive through the navigation as fast as it goes, and what there is to say about it afterwards.
 
+#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,6 +22,8 @@ class OfflineRun {
 
   /// Who else is to have every estimate, as soon as there is one.
   void onEstimate(FilterEngine::EstimateSink sink) { on_estimate_ = std::move(sink); }
+  /// The same as users see it.
+  void onOutput(std::function<void(const Output&)> sink) { on_output_ = std::move(sink); }
 
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
@@ -47,9 +50,11 @@ class OfflineRun {
   Config config_;
   Planet planet_;
   Pipeline pipeline_;
+  std::function<void(const Output&)> on_output_;
   FilterEngine::EstimateSink on_estimate_;
   std::optional<OutputMaker> output_;
   EstimateTrack estimates_;
+  FilterRecorder filter_rows_;
   std::optional<double> slip_;
   std::optional<PlanarDeadReckoning> wheel_only_;
   std::vector<ImuSample> earlier_imu_;       ///< what came before the start was known

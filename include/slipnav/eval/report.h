@@ -11,6 +11,7 @@
 
 #include "slipnav/eval/estimate.h"
 #include "slipnav/eval/metrics.h"
+#include "slipnav/eval/run_diagnostics.h"
 #include "slipnav/eval/truth_track.h"
 #include "slipnav/types.h"
 
@@ -41,10 +42,11 @@ struct RunReport {
   EstimateTrack estimates;
   TruthTrack truth;
   std::vector<ForecastRow> forecasts;
+  RunDiagnostics diagnostics;
 };
 
-/// Creates the directory where it is missing and writes metrics.json, timeline.csv, forecasts.csv, estimate.tum and,
-/// with truth, truth.tum (a truth.tum of an earlier run is removed without).
+/// Creates the directory where it is missing and writes metrics.json, timeline.csv, forecasts.csv, estimate.tum, the
+/// files of run_diagnostics.h and, with truth, truth.tum (a truth.tum of an earlier run is removed without).
 void writeRunReport(const std::string& directory, const RunReport& report);
 
 /// The columns of the paper's Table I, in one row of two header lines: name, Σ_D, ε, stops, Σ_T, ENU and median error,

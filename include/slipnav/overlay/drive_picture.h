@@ -60,6 +60,7 @@ class DrivePicture {
   void takeWheelPath();
   void takeTruth(const EstimateSample& earlier, const EstimateSample& later);
 
+  bool flat_;
   DisplayTrack track_;
   DisplayTrack truth_;
   DisplayTrack wheels_;

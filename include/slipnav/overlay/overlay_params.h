@@ -12,12 +12,14 @@ struct OverlayParams {
   double point_spacing_m = 0.1;
   int max_points = 4000;
   int max_stops = 200;
+  bool flat = true;
   double slip_full_scale = 0.3;
-  double text_height_m = 0.6;
-  double panel_east_m = -13.0;
-  double panel_north_m = 9.0;
-  double legend_east_m = 8.0;
-  double legend_north_m = 9.0;
+  double text_height_m = 0.7;
+  std::string frame = "overlay";
+  double panel_east_m = -18.0;
+  double panel_north_m = 12.5;
+  double legend_east_m = 6.5;
+  double legend_north_m = 12.5;
   void visit(ParameterVisitor& v);
 };
 

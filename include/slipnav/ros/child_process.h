@@ -29,7 +29,7 @@ class ChildProcess {
   std::optional<int> status_;
 };
 
-/// An executable or script that stands beside the running one.
-std::string besideThisExecutable(const std::string& name);
+/// Path of an executable or script of this package: as catkin lays them out, beside its libraries in lib/slipnav.
+std::string packageExecutable(const std::string& name);
 
 }  // namespace slipnav

@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "slipnav/config/config.h"
 
@@ -56,6 +57,20 @@ class CoreNodelet : public nodelet::Nodelet {
     return getNodeHandle().advertise<Message>(topic, kQueueSize, latch);
   }
 
+  /// Offers a service in the nodelet's own namespace. Its response has `success` and `message`; an exception of the
+  /// handler becomes the message of a failure.
+  template <class Request, class Response, class Self>
+  void serve(const std::string& name, void (Self::*handler)(const Request&, Response&)) {
+    const boost::function<bool(Request&, Response&)> callback = [this, handler](Request& request, Response& response) {
+      const std::string failure =
+          answer([this, handler, &request, &response] { (static_cast<Self*>(this)->*handler)(request, response); });
+      response.success = failure.empty();
+      response.message = failure.empty() ? response.message : failure;
+      return true;
+    };
+    services_.push_back(getPrivateNodeHandle().advertiseService(name, callback));
+  }
+
   /// Seconds of a clock that only runs forward, for patience.
   static double now() { return ros::SteadyTime::now().toSec(); }
 
@@ -64,6 +79,8 @@ class CoreNodelet : public nodelet::Nodelet {
 
   void handle(const std::function<void()>& work);
   void guarded(const std::function<void()>& work);
+  /// @return what went wrong, "" when nothing did
+  std::string answer(const std::function<void()>& work);
   void tick();
   void waitForExtrinsics();
 
@@ -75,6 +92,7 @@ class CoreNodelet : public nodelet::Nodelet {
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
   std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
   ros::WallTimer tick_timer_;
   ros::WallTimer diagnostics_timer_;
 };

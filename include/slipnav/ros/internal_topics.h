@@ -7,6 +7,9 @@ inline constexpr const char* kInitialStateTopic = "initial_state";
 inline constexpr const char* kInsStepsTopic = "ins_steps";
 inline constexpr const char* kCorrectionTopic = "correction";
 inline constexpr const char* kInitializationTopic = "initialization";
+/// Forecast to StopSupervisor: std_msgs/Header, stamp of the newest estimate dealt with. A forecast that was made with
+/// it was published before.
+inline constexpr const char* kForecastProgressTopic = "forecast_progress";
 /// Overlay to robot_state_publisher: the wheels of the model in rviz.
 inline constexpr const char* kModelJointsTopic = "model/joint_states";
 

@@ -15,7 +15,7 @@ struct StopParams {
   double angular_deceleration_radps2 = 1.0;
   double max_stop_s = 6.0;
   double max_hold_s = 3.0;
-  double converged_speed_std_mps = 0.0006;
+  double converged_speed_std_mps = 0.002;
   int min_zero_updates = 8;
   double countdown_s = 10.0;
   double min_drive_s = 5.0;
@@ -24,6 +24,7 @@ struct StopParams {
   double slide_after_s = 1.5;
   double retry_after_slide_s = 30.0;
   double estimate_timeout_s = 2.0;
+  double command_timeout_s = 1.0;
   void visit(ParameterVisitor& v);
 
   StopMode stopMode() const;

@@ -1,0 +1,1 @@
+"""What `--report` draws: figures of one run, and the page that holds them."""

@@ -1,0 +1,91 @@
+"""The report as one HTML file that needs nothing else."""
+
+import base64
+import html
+import io
+import os
+
+import matplotlib.pyplot as plt
+
+from . import filter_health, forecasts, tracks
+
+DPI = 110
+
+# File name, heading, what draws it.
+FIGURES = (
+    ("track", "Ground track", tracks.ground_track),
+    ("errors", "Position error and its ±3σ bounds", tracks.position_errors),
+    ("slip", "Slip and its forecast", forecasts.slip_and_forecast),
+    ("forecast", "Forecast and realised error, time to stop", forecasts.predicted_and_realised),
+    ("velocity", "Velocity", filter_health.velocity),
+    ("biases", "IMU biases", filter_health.biases),
+    ("consistency", "Consistency: normalised innovations and errors", filter_health.consistency),
+)
+
+# Heading of the table, key in metrics.json, decimals: the columns of the paper's Table I.
+COLUMNS = (
+    ("D [m]", "distance_m", 0), ("stops", "stop_count", 0), ("T [s]", "duration_s", 0),
+    ("ENU error [%]", "enu_error_pct", 2), ("median error [%]", "median_error_pct", 2),
+    ("horizontal median [m]", "horizontal_median_m", 2), ("std [m]", "horizontal_std_m", 2),
+    ("max [m]", "horizontal_max_m", 2), ("RMS east [m]", "rms_east_m", 2), ("north [m]", "rms_north_m", 2),
+    ("up [m]", "rms_up_m", 2), ("wheels alone [%]", "wheel_only_error_pct", 2), ("without stops' updates [%]",
+                                                                                 "no_zupt_error_pct", 2),
+)
+
+STYLE = """
+body { font-family: sans-serif; color: #222222; background: #ffffff; max-width: 62rem; margin: 2rem auto; padding: 0 1rem }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1rem 0 }
+th, td { border-bottom: 1px solid #cccccc; padding: 0.3rem 0.6rem; text-align: right; font-size: 0.85rem }
+th { font-weight: normal; color: #555555; vertical-align: bottom }
+.wide { overflow-x: auto }
+figure { margin: 1.5rem 0 } figcaption { font-weight: bold; margin-bottom: 0.3rem } img { max-width: 100% }
+"""
+
+
+def png_of(figure):
+    figure.tight_layout()
+    buffer = io.BytesIO()
+    figure.savefig(buffer, format="png", dpi=DPI)
+    plt.close(figure)
+    return buffer.getvalue()
+
+
+def cell(value, decimals):
+    return "-" if value is None else f"{value:.{decimals}f}"
+
+
+def table_row(metrics):
+    heads = "".join(f"<th>{html.escape(title)}</th>" for title, _, _ in COLUMNS)
+    cells = "".join(f"<td>{cell(metrics[key], decimals)}</td>" for _, key, decimals in COLUMNS)
+    return f"<div class=wide><table><tr>{heads}</tr><tr>{cells}</tr></table></div>"
+
+
+def all_metrics(metrics):
+    rows = "".join(f"<tr><td style='text-align:left'>{html.escape(key)}</td><td>{'-' if value is None else value:}</td>"
+                   "</tr>" for key, value in metrics.items())
+    return f"<details><summary>All figures of metrics.json</summary><table>{rows}</table></details>"
+
+
+def figure_block(name, title, png):
+    data = base64.b64encode(png).decode("ascii")
+    return (f"<figure id={name}><figcaption>{html.escape(title)}</figcaption>"
+            f'<img alt="{html.escape(title)}" src="data:image/png;base64,{data}"></figure>')
+
+
+def write_report(run, progress):
+    """Writes NAME.png for each figure and report.html; returns the path of the latter."""
+    blocks = []
+    for name, title, draw in FIGURES:
+        progress(title)
+        png = png_of(draw(run))
+        with open(os.path.join(run.directory, name + ".png"), "wb") as file:
+            file.write(png)
+        blocks.append(figure_block(name, title, png))
+    name = html.escape(os.path.basename(os.path.abspath(run.directory)))
+    page = (f"<!DOCTYPE html><html lang=en><head><meta charset=utf-8><title>slipnav: {name}</title>"
+            f"<style>{STYLE}</style></head><body><h1>Run {name}</h1>{table_row(run.metrics)}{''.join(blocks)}"
+            f"{all_metrics(run.metrics)}</body></html>\n")
+    path = os.path.join(run.directory, "report.html")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(page)
+    return path

@@ -1,0 +1,14 @@
+"""The colours of include/slipnav/overlay/palette.h, so that plots and rviz look alike; a test compares them."""
+
+ESTIMATE = "#0072B2"
+TRUTH = "#E69F00"
+DEAD_RECKONING = "#CC79A7"
+STOP = "#009E73"
+ERROR = "#D55E00"
+TEXT = "#222222"
+SAFE = "#56B4E9"
+WARNING = "#F0E442"
+
+# Of three axes, where each figure says which is which.
+AXES = (ESTIMATE, ERROR, STOP)
+STANDSTILL = "0.9"

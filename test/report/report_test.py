@@ -1,0 +1,200 @@
+#!/usr/bin/python3
+"""The report of a simulated drive: each figure holds its data, the page needs nothing else, trajectories agree with the
+metrics.
+
+The environment names the executable: SLIPNAV_SIMULATE.
+"""
+
+import base64
+import csv
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+import matplotlib.image
+import matplotlib.pyplot as plt
+import numpy as np
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+
+from slipnav_report import filter_health, forecasts, page, palette, tracks  # noqa: E402
+from slipnav_report.run_data import RunData, read_tum  # noqa: E402
+
+MOST_BYTES = 5_000_000
+MOST_SECONDS = 60.0  # for a drive of a minute on a machine that is busy; see doc/visualisation.md for what it takes
+THRESHOLD_M = 0.8
+
+
+def write_forecasts(directory, start):
+    """Forecasts of known numbers: every second the bound grows by 2 cm per second, slip is 0.1 ± 0.05."""
+    with open(os.path.join(directory, "forecasts.csv"), "w", newline="", encoding="ascii") as file:
+        out = csv.writer(file)
+        out.writerow(["t", "horizon_s", "horizontal_bound_m", "time_to_stop_s"])
+        for made in range(10, 40):
+            for horizon in range(1, 61):
+                out.writerow([start + made, horizon, 0.02 * horizon, THRESHOLD_M / 0.02])
+    with open(os.path.join(directory, "slip_forecasts.csv"), "w", newline="", encoding="ascii") as file:
+        out = csv.writer(file)
+        out.writerow(["t", "horizon_s", "mean", "stddev"])
+        for made in range(10, 40):
+            for horizon in np.arange(1, 11):
+                out.writerow([start + made, horizon, 0.1, 0.05])
+
+
+def curve(axes, label):
+    for line in axes.get_lines():
+        if line.get_label() == label:
+            return line
+    raise AssertionError(f"no curve '{label}' among {[line.get_label() for line in axes.get_lines()]}")
+
+
+class ReportTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = tempfile.mkdtemp(prefix="slipnav_report_")
+        subprocess.run(
+            [os.environ["SLIPNAV_SIMULATE"], "--distance", "25", "--seed", "3", "--out", cls.directory],
+            check=True, stdout=subprocess.DEVNULL,
+        )
+        write_forecasts(cls.directory, RunData(cls.directory).start)
+        begin = time.monotonic()
+        subprocess.run([os.path.join(ROOT, "scripts", "plot_report.py"), cls.directory], check=True,
+                       stderr=subprocess.DEVNULL)
+        cls.seconds = time.monotonic() - begin
+        cls.run_data = RunData(cls.directory)
+        with open(os.path.join(cls.directory, "metrics.json"), encoding="utf-8") as file:
+            cls.metrics = json.load(file)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.directory)
+
+    def tearDown(self):
+        plt.close("all")
+
+    def page(self):
+        with open(os.path.join(self.directory, "report.html"), encoding="utf-8") as file:
+            return file.read()
+
+    def test_page_needs_nothing_else(self):
+        text = self.page()
+        self.assertEqual(re.findall(r"https?://|<script|<link|@import|src=\"(?!data:)", text), [])
+        self.assertLess(len(text), MOST_BYTES)
+        self.assertLess(self.seconds, MOST_SECONDS)
+
+    def test_page_holds_every_figure_and_each_shows_its_colours(self):
+        wanted = {"track": ("ESTIMATE", "TRUTH", "DEAD_RECKONING", "STOP"), "errors": ("ESTIMATE",), "slip": ("TEXT",),
+                  "forecast": ("ERROR", "ESTIMATE"), "velocity": ("ESTIMATE", "TRUTH", "DEAD_RECKONING"),
+                  "biases": ("ESTIMATE", "ERROR", "STOP"), "consistency": ("ESTIMATE",)}
+        found = re.findall(r'<figure id=(\w+)>.*?base64,([^"]+)"', self.page())
+        self.assertEqual([name for name, _ in found], [name for name, _, _ in page.FIGURES])
+        self.assertEqual({name for name, _ in found}, set(wanted))
+        for name, data in found:
+            png = base64.b64decode(data)
+            with open(os.path.join(self.directory, name + ".png"), "rb") as file:
+                self.assertEqual(file.read(), png)
+            pixels = matplotlib.image.imread(io.BytesIO(png))[:, :, :3].reshape(-1, 3)
+            for colour in wanted[name]:
+                rgb = np.array(matplotlib.colors.to_rgb(getattr(palette, colour)))
+                near = np.count_nonzero(np.abs(pixels - rgb).max(axis=1) < 0.03)
+                self.assertGreater(near, 100, f"{name} has no {colour}")
+
+    def test_page_has_the_table_row(self):
+        cells = re.findall(r"<td>([^<]*)</td>", self.page())
+        self.assertEqual(cells[0], f"{self.metrics['distance_m']:.0f}")
+        self.assertEqual(cells[1], str(self.metrics["stop_count"]))
+        self.assertEqual(cells[3], f"{self.metrics['enu_error_pct']:.2f}")
+
+    def test_ground_track(self):
+        axes = tracks.ground_track(self.run_data).axes[0]
+        for label in ("estimate", "truth", "wheels and gyro alone"):
+            east, north = curve(axes, label).get_data()
+            self.assertGreater(len(east), 100)
+            self.assertGreater(np.ptp(east) + np.ptp(north), 20.0, label)
+        stops = [line for line in axes.get_lines() if line.get_label().startswith("stops")]
+        self.assertEqual(len(stops[0].get_xdata()), self.metrics["stop_count"])
+
+    def test_position_errors(self):
+        figure = tracks.position_errors(self.run_data)
+        for axes, key in zip(figure.axes, ("rms_east_m", "rms_north_m", "rms_up_m")):
+            error = curve(axes, "error").get_ydata()
+            error = error[np.isfinite(error)]
+            self.assertAlmostEqual(np.sqrt(np.mean(error**2)), self.metrics[key], delta=0.2 * self.metrics[key] + 0.003)
+            self.assertEqual(len([c for c in axes.collections if c.get_label() == "±3σ"]), 1)
+
+    def test_slip_and_its_forecast(self):
+        axes = forecasts.slip_and_forecast(self.run_data).axes[0]
+        slip = curve(axes, "slip ratio").get_ydata()
+        self.assertGreater(np.count_nonzero(np.isfinite(slip)), 100)
+        time_s, mean = curve(axes, "forecast mean").get_data()
+        self.assertEqual(len(time_s), 10)
+        self.assertAlmostEqual(time_s[0], 11.0, places=3)
+        self.assertTrue(np.all(mean == 0.1))
+        bands = [c for c in axes.collections if c.get_label().startswith("forecast")]
+        self.assertAlmostEqual(bands[0].get_paths()[0].get_extents().height, 4 * 0.05, places=6)
+
+    def test_forecast_and_realised_error(self):
+        figure = forecasts.predicted_and_realised(self.run_data)
+        error, countdown = figure.axes
+        self.assertAlmostEqual(curve(error, "forecast bound").get_ydata()[-1], 1.2)
+        grown = curve(error, "error grown since the last stop").get_ydata()
+        self.assertGreater(np.nanmax(grown), 0.0)
+        self.assertAlmostEqual(curve(error, f"ε = {THRESHOLD_M:.2f} m").get_ydata()[0], THRESHOLD_M, places=6)
+        self.assertEqual(len(countdown.get_lines()[0].get_xdata()), 30)
+        self.assertAlmostEqual(countdown.get_lines()[0].get_ydata()[0], 40.0)
+
+    def test_velocity(self):
+        axes = filter_health.velocity(self.run_data).axes[0]
+        for label in ("wheels", "truth, over 1 s", "filter"):
+            speed = curve(axes, label).get_ydata()
+            self.assertAlmostEqual(np.median(speed[speed > 0.4]), 0.8, delta=0.1, msg=label)
+
+    def test_biases(self):
+        for axes in filter_health.biases(self.run_data).axes:
+            for axis in "xyz":
+                bias = curve(axes, axis).get_ydata()
+                self.assertGreater(len(bias), 100)
+                self.assertGreater(np.max(np.abs(bias)), 0.0)
+
+    def test_consistency(self):
+        figure = filter_health.consistency(self.run_data)
+        titles = [axes.get_title() for axes in figure.axes[:7]]
+        for axes, title in zip(figure.axes, titles):
+            self.assertNotIn("not measured", title)
+            self.assertGreater(len(axes.get_lines()[0].get_xdata()), 10)
+        self.assertIn("NEES", titles[6])
+        mean = float(re.search(r"mean/dof ([\d.]+)", titles[6]).group(1))
+        self.assertAlmostEqual(mean, self.metrics["position_nees_mean"], delta=0.01)
+
+    def test_trajectories_have_the_rmse_of_the_metrics(self):
+        """As evo_ape pairs them: the nearest stamp within 10 ms."""
+        truth = read_tum(os.path.join(self.directory, "truth.tum"))
+        estimate = read_tum(os.path.join(self.directory, "estimate.tum"))
+        nearest = np.abs(estimate["t"][:, None] - truth["t"][None, :]).argmin(axis=0)
+        paired = np.abs(estimate["t"][nearest] - truth["t"]) <= 0.01
+        square = sum((estimate[a][nearest] - truth[a])[paired] ** 2 for a in "enu")
+        rms = np.sqrt(sum(self.metrics[key] ** 2 for key in ("rms_east_m", "rms_north_m", "rms_up_m")))
+        self.assertAlmostEqual(np.sqrt(square.mean()), rms, delta=1e-6)
+
+    @unittest.skipUnless(shutil.which("evo_ape"), "evo is not installed")
+    def test_evo_agrees(self):
+        output = subprocess.run(["evo_ape", "tum", "truth.tum", "estimate.tum"], cwd=self.directory, check=True,
+                                capture_output=True, text=True).stdout
+        rms = np.sqrt(sum(self.metrics[key] ** 2 for key in ("rms_east_m", "rms_north_m", "rms_up_m")))
+        self.assertAlmostEqual(float(re.search(r"rmse\s+([\d.]+)", output).group(1)), rms, delta=1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main()
