@@ -10,6 +10,9 @@
 namespace slipnav {
 
 struct ForecastParams {
+  /// The slip model that forecasts best, see doc/forecast.md; a model on its own is the paper's.
+  ForecastParams() { slip.model = "rbf_slow"; }
+
   double threshold_m = 3.0;
   std::string schedule = "sliding";
   std::string bound = "growth";

@@ -15,7 +15,7 @@
 namespace slipnav {
 
 struct SlipModelParameters {
-  std::string model = "rbf_slow";   ///< a name of latentModelNames()
+  std::string model = "paper";      ///< a name of latentModelNames()
   std::string inference = "dense";  ///< dense: exact, cubic in samples; state_space: linear, RBF approximated
   int min_samples = 15;             ///< usable samples that a window must have
   double slip_floor = 1e-3;         ///< slip that varies by less is constant
