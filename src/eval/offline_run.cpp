@@ -29,6 +29,7 @@ OfflineRun::OfflineRun(const Config& config, bool with_baselines)
                 [this](const Estimate& estimate, const ErrorCovariance& P) { record(estimate, P); }) {
   if (with_baselines) {
     without_zupt_ = std::make_unique<OfflineRun>(withoutZeroUpdates(config), false);
+    forecasts_.emplace(config);
   }
 }
 
@@ -84,6 +85,9 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
                     pipeline_.filter().dynamics().gyroNoiseDensity());
     estimates_.clear();
     filter_rows_.clear();
+    if (forecasts_) {
+      forecasts_->clear();
+    }
     startWheelOnly(output_->make(estimate, P));
   }
   if (estimate.has_wheels) {
@@ -98,6 +102,9 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
                         out.velocity_flu_mps.x(), slip_, estimate.stationary});
   if (on_estimate_) {
     on_estimate_(estimate, P);
+  }
+  if (forecasts_) {
+    forecasts_->push(estimate, P, on_forecast_);
   }
 }
 
@@ -153,6 +160,12 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
     plain.estimates = without_zupt_->estimates_;
     plain.truth = report.truth;
     input.no_zupt_error_pct = computeMetrics(plain).enu_error_pct;
+  }
+  if (forecasts_) {
+    report.forecasts = forecasts_->errorRows();
+    report.diagnostics.slip_forecasts = forecasts_->slipRows();
+    input.counters.forecast_ms = forecasts_->times_ms();
+    input.counters.forecasts = static_cast<std::int64_t>(forecasts_->times_ms().size());
   }
   report.metrics = computeMetrics(input);
   report.diagnostics.filter = filter_rows_.rows();

@@ -14,15 +14,6 @@ constexpr int kCorrelationPoints = 61;
 
 double square(double x) { return x * x; }
 
-double hyperparameter(const SlipFit& fit, const std::string& name) {
-  for (const auto& [key, value] : fit.hyperparameters) {
-    if (key == name) {
-      return value;
-    }
-  }
-  return 0.0;
-}
-
 /// Position in 0 … count − 1 that goes to and fro.
 std::size_t toAndFro(std::size_t i, std::size_t count) {
   const std::size_t period = std::max<std::size_t>(1, 2 * (count - 1));
@@ -186,7 +177,7 @@ void Forecaster::learnGround(const Forecast& forecast) {
     outlook_.drift_std = outlook_.change_std = 0.0;
     return;
   }
-  const double noise_std = std::sqrt(hyperparameter(forecast.fit, "noise_variance"));
+  const double noise_std = std::sqrt(forecast.fit.hyperparameter("noise_variance"));
   const double slip_std = std::hypot(forecast.correlation.stddev, forecast.correlation.bias_stddev);
   const WheelSpeedPrediction wheel = sigma_points_.predict(speed_mps, mean_slip, std::hypot(slip_std, noise_std));
   outlook_.wheel_speed_mps = std::copysign(wheel.mean_mps, outlook_.speed_mps);
@@ -217,7 +208,7 @@ std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {
   return steps;
 }
 
-void Forecaster::boundError(const std::vector<double>& std_m, ErrorForecast& error) const {
+void Forecaster::boundError(const std::vector<double>& std_m, ErrorOutlook& error) const {
   for (std::size_t i = 0; i < std_m.size(); ++i) {
     error.times_s.push_back(params_.step_s * static_cast<double>(i + 1));
     error.horizontal_bound_m.push_back(params_.sigmas * std_m[i]);

@@ -29,4 +29,13 @@ bool isAccepted(SlipFitStatus status) {
          status != SlipFitStatus::kNotPositiveDefinite;
 }
 
+double SlipFit::hyperparameter(const std::string& name) const {
+  for (const auto& [key, value] : hyperparameters) {
+    if (key == name) {
+      return value;
+    }
+  }
+  return 0.0;
+}
+
 }  // namespace slipnav

@@ -3,6 +3,8 @@
 #include <boost/make_shared.hpp>
 
 #include "slipnav/ros/conversions.h"
+#include "slipnav/ros/internal_messages.h"
+#include "slipnav/ros/internal_topics.h"
 #include "slipnav/slip/vehicle_slip.h"
 
 namespace slipnav {
@@ -18,7 +20,8 @@ EstimatePublisher::EstimatePublisher(ros::NodeHandle& node, const Config& config
       geometry_(config.wheelGeometry()),
       odometry_(node.advertise<nav_msgs::Odometry>(config.topics.odometry, kQueueSize)),
       nav_state_(node.advertise<NavState>(config.topics.nav_state, kQueueSize)),
-      slip_(node.advertise<Slip>(config.topics.slip, kQueueSize)) {}
+      slip_(node.advertise<Slip>(config.topics.slip, kQueueSize)),
+      forecast_input_(node.advertise<ForecastInput>(kForecastInputTopic, kQueueSize)) {}
 
 void EstimatePublisher::start(const Geodetic& origin, const Vector3& lever_imu_to_base_b, double gyro_noise_density) {
   output_.emplace(planet_, origin, lever_imu_to_base_b, gyro_noise_density);
@@ -27,6 +30,7 @@ void EstimatePublisher::start(const Geodetic& origin, const Vector3& lever_imu_t
 void EstimatePublisher::publish(const Estimate& estimate, const ErrorCovariance& P) {
   if (estimate.has_wheels) {
     publishSlip(estimate);
+    publishForecastInput(estimate, P);
   }
   const auto nav_state = boost::make_shared<NavState>();
   fill(estimate, P, output_->frame(), config_.frames, config_.filter.max_wheel_interval_s, *nav_state);
@@ -37,6 +41,12 @@ void EstimatePublisher::publish(const Estimate& estimate, const ErrorCovariance&
   fill(output, config_.frames, *odometry);
   odometry_.publish(nav_msgs::Odometry::ConstPtr(odometry));
   tf_.sendTransform(toTransform(output, config_.frames));
+}
+
+void EstimatePublisher::publishForecastInput(const Estimate& estimate, const ErrorCovariance& P) {
+  const auto input = boost::make_shared<ForecastInput>();
+  fill(estimate, P, *input);
+  forecast_input_.publish(ForecastInput::ConstPtr(input));
 }
 
 void EstimatePublisher::publishSlip(const Estimate& estimate) {

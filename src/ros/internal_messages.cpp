@@ -98,6 +98,38 @@ InitialState fromMessage(const StartState& message) {
   return initial;
 }
 
+void fill(const Estimate& estimate, const ErrorCovariance& P, ForecastInput& message) {
+  const auto& [wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad] = estimate.vehicle;
+  message.state = toMessage(estimate.nav);
+  message.vehicle = {wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad};
+  Eigen::Map<RowMajorCovariance>(message.covariance.data()) = P;
+  message.stationary = estimate.stationary;
+  message.wheel_speed_used = estimate.wheel_speed_used;
+  message.wheel_stamp = toRosTime(estimate.wheels.stamp);
+  message.wheel_speed_mps = estimate.wheels.motion.forward_mps;
+  message.duration_s = estimate.motion.duration_s;
+  copyVector(estimate.motion.v_eb_b, message.v_eb_b);
+}
+
+Estimate estimateOf(const ForecastInput& message) {
+  Estimate estimate;
+  estimate.nav = fromMessage(message.state);
+  estimate.vehicle = {message.vehicle[0], message.vehicle[1], message.vehicle[2],
+                      message.vehicle[3], message.vehicle[4], message.vehicle[5]};
+  estimate.stationary = message.stationary;
+  estimate.has_wheels = true;
+  estimate.wheel_speed_used = message.wheel_speed_used;
+  estimate.wheels.stamp = toNanoseconds(message.wheel_stamp);
+  estimate.wheels.motion.forward_mps = message.wheel_speed_mps;
+  estimate.motion.duration_s = message.duration_s;
+  estimate.motion.v_eb_b = vectorOf(message.v_eb_b);
+  return estimate;
+}
+
+ErrorCovariance covarianceOf(const ForecastInput& message) {
+  return Eigen::Map<const RowMajorCovariance>(message.covariance.data());
+}
+
 void fill(const Correction& correction, FilterCorrection& message) {
   const auto& [sequence, epoch, state] = correction;
   message.corrects = true;

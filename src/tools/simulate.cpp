@@ -23,6 +23,7 @@ CommandLine commandLine() {
       .option("distance", "M", "metres to drive after the initialisation", "150")
       .option("seed", "N", "makes terrain, slip and sensor errors", "1")
       .option("policy", "P", "when to stop: none, periodic:EVERY_S:HOLD_S, autonomous", "periodic:12:3")
+      .option("threshold", "M", "error bound at which autonomous stops come; forecast.threshold_m")
       .option("out", "DIR", "where metrics.json, timeline.csv, forecasts.csv, estimate.tum, truth.tum go")
       .option("bag", "FILE", "record the sensors and the truth, as a robot would")
       .flag("report", "plots into the output directory");
@@ -37,6 +38,9 @@ Config configuration(const Arguments& arguments) {
   Config config = slipnav::configFromOptions(arguments);
   config.simulator.terrain = arguments.text("terrain");
   config.simulator.drive.distance_m = arguments.number("distance", {1.0, 1e6});
+  if (arguments.given("threshold")) {
+    config.forecast.threshold_m = arguments.number("threshold", {1e-3, 1e4});
+  }
   config.simulator.seed = arguments.integer("seed", {0.0, 1e9});
   return config;
 }
@@ -50,6 +54,9 @@ slipnav::RunReport drive(const Config& config, slipnav::StopPolicy& policy, cons
   slipnav::SimulatedRun run(config);
   run.onEstimate([&](const slipnav::Estimate& estimate, const slipnav::ErrorCovariance& P) {
     policy.observe(slipnav::observationOf(estimate, P, config.stationary.wheel_speed_mps));
+  });
+  run.onForecast([&policy](const slipnav::ErrorOutlook& forecast) {
+    policy.setForecast({forecast.stamp, forecast.time_to_stop_s});
   });
   slipnav::simulateDrive(config.simulator, slipnav::Planet::byName(config.planet), policy,
                          [&](const slipnav::sim::Measurements& measurements, const slipnav::sim::TruthState& truth) {

@@ -8,6 +8,7 @@
 
 #include "slipnav/config/config.h"
 #include "slipnav/eval/alignment.h"
+#include "slipnav/eval/forecast_recorder.h"
 #include "slipnav/eval/planar_dead_reckoning.h"
 #include "slipnav/eval/report.h"
 #include "slipnav/navigator/output.h"
@@ -22,6 +23,8 @@ class OfflineRun {
 
   /// Who else is to have every estimate, as soon as there is one.
   void onEstimate(FilterEngine::EstimateSink sink) { on_estimate_ = std::move(sink); }
+  /// Who is to have each forecast, after the estimate that it was made with.
+  void onForecast(ForecastRecorder::Sink sink) { on_forecast_ = std::move(sink); }
   /// The same as users see it.
   void onOutput(std::function<void(const Output&)> sink) { on_output_ = std::move(sink); }
 
@@ -52,9 +55,11 @@ class OfflineRun {
   Pipeline pipeline_;
   std::function<void(const Output&)> on_output_;
   FilterEngine::EstimateSink on_estimate_;
+  ForecastRecorder::Sink on_forecast_;
   std::optional<OutputMaker> output_;
   EstimateTrack estimates_;
   FilterRecorder filter_rows_;
+  std::optional<ForecastRecorder> forecasts_;  ///< not for a baseline
   std::optional<double> slip_;
   std::optional<PlanarDeadReckoning> wheel_only_;
   std::vector<ImuSample> earlier_imu_;       ///< what came before the start was known

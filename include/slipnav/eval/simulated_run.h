@@ -13,6 +13,9 @@ class SimulatedRun {
   /// Who is to have every estimate, as soon as there is one.
   void onEstimate(FilterEngine::EstimateSink sink) { run_.onEstimate(std::move(sink)); }
 
+  /// Who is to have each forecast, after its estimate.
+  void onForecast(ForecastRecorder::Sink sink) { run_.onForecast(std::move(sink)); }
+
   /// One interval of the drive.
   void add(const sim::Measurements& measurements, const sim::TruthState& truth);
 

@@ -11,7 +11,10 @@ namespace slipnav {
 
 struct ForecastParams {
   /// The slip model that forecasts best, see doc/forecast.md; a model on its own is the paper's.
-  ForecastParams() { slip.model = "rbf_slow"; }
+  ForecastParams() {
+    slip.model = "rbf_slow";
+    slip.inference = "state_space";
+  }
 
   double threshold_m = 3.0;
   std::string schedule = "sliding";

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "slipnav/forecast/covariance_forecast.h"
-#include "slipnav/forecast/error_forecast.h"
+#include "slipnav/forecast/error_outlook.h"
 #include "slipnav/forecast/forecast_params.h"
 #include "slipnav/forecast/gaussian_process_slip_model.h"
 #include "slipnav/forecast/sigma_points.h"
@@ -25,7 +25,7 @@ struct Forecast {
   SlipPrediction slip;          ///< times ahead of the stamp
   GaussMarkovSlip correlation;  ///< of the predicted slip
   GroundOutlook outlook;
-  ErrorForecast error;
+  ErrorOutlook error;
 };
 
 class Forecaster {
@@ -69,7 +69,7 @@ class Forecaster {
   void learnGround(const Forecast& forecast);
   void learnSpeedAndSideSlip();
   std::vector<DriveStep> wayAhead(const Estimate& estimate) const;
-  void boundError(const std::vector<double>& std_m, ErrorForecast& error) const;
+  void boundError(const std::vector<double>& std_m, ErrorOutlook& error) const;
 
   FilterSetup setup_;
   ForecastParams params_;

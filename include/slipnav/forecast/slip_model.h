@@ -36,6 +36,9 @@ struct SlipFit {
   std::vector<std::pair<std::string, double>> hyperparameters;  ///< name (unit as suffix) and value
   double log_marginal_likelihood = 0.0;                         ///< of the samples used
   int evaluations = 0;                                          ///< of the likelihood, for this window
+
+  /// By its name, with the unit; zero when the model has none of that name.
+  double hyperparameter(const std::string& name) const;
 };
 
 /// The latent slip, without the noise of a single observation. Every number is finite.

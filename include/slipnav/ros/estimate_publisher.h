@@ -26,6 +26,7 @@ class EstimatePublisher {
 
  private:
   void publishSlip(const Estimate& estimate);
+  void publishForecastInput(const Estimate& estimate, const ErrorCovariance& P);
 
   Config config_;
   Planet planet_;
@@ -35,6 +36,7 @@ class EstimatePublisher {
   ros::Publisher odometry_;
   ros::Publisher nav_state_;
   ros::Publisher slip_;
+  ros::Publisher forecast_input_;
 };
 
 }  // namespace slipnav

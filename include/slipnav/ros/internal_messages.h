@@ -2,6 +2,7 @@
 /// Between the core's own structs and the messages that Ins, Filter and Initializer exchange. Nothing is lost.
 
 #include <slipnav/FilterCorrection.h>
+#include <slipnav/ForecastInput.h>
 #include <slipnav/InertialState.h>
 #include <slipnav/InsInterval.h>
 #include <slipnav/StartState.h>
@@ -21,6 +22,12 @@ InsStep fromMessage(const InsInterval& message, std::uint32_t epoch);
 /// Fills everything but the session.
 void fill(const InitialState& initial, StartState& message);
 InitialState fromMessage(const StartState& message);
+
+/// What a Forecaster takes of an estimate and its covariance.
+void fill(const Estimate& estimate, const ErrorCovariance& P, ForecastInput& message);
+/// The parts of an estimate that were sent; the others are left at their defaults.
+Estimate estimateOf(const ForecastInput& message);
+ErrorCovariance covarianceOf(const ForecastInput& message);
 
 /// Fills everything but the session and the look-ahead.
 void fill(const Correction& correction, FilterCorrection& message);

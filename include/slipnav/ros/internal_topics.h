@@ -7,6 +7,8 @@ inline constexpr const char* kInitialStateTopic = "initial_state";
 inline constexpr const char* kInsStepsTopic = "ins_steps";
 inline constexpr const char* kCorrectionTopic = "correction";
 inline constexpr const char* kInitializationTopic = "initialization";
+/// Filter to Forecast: slipnav/ForecastInput, one per wheel interval.
+inline constexpr const char* kForecastInputTopic = "forecast_input";
 /// Forecast to StopSupervisor: std_msgs/Header, stamp of the newest estimate dealt with. A forecast that was made with
 /// it was published before.
 inline constexpr const char* kForecastProgressTopic = "forecast_progress";

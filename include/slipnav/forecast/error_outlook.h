@@ -8,7 +8,7 @@
 
 namespace slipnav {
 
-struct ErrorForecast {
+struct ErrorOutlook {
   Nanoseconds stamp = 0;                   ///< when the forecast begins
   std::vector<double> times_s;             ///< ahead of the stamp, ascending
   std::vector<double> horizontal_bound_m;  ///< bound of the horizontal position error at each of them

@@ -1,0 +1,108 @@
+/// slipnav/Forecast: learns the slip of the last seconds, and forecasts slip and position error.
+///
+/// In: forecast_input. Out: slip_forecast, error_forecast, forecast_progress.
+
+#include <slipnav/ErrorForecast.h>
+#include <slipnav/ForecastInput.h>
+#include <slipnav/SlipForecast.h>
+#include <std_msgs/Header.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <boost/make_shared.hpp>
+#include <optional>
+#include <string>
+
+#include "slipnav/forecast/forecaster.h"
+#include "slipnav/ros/conversions.h"
+#include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/forecast_messages.h"
+#include "slipnav/ros/internal_messages.h"
+#include "slipnav/ros/internal_topics.h"
+
+namespace slipnav {
+
+class ForecastNodelet : public CoreNodelet {
+ private:
+  void begin(const Config& config) override {
+    frames_ = config.frames;
+    model_ = config.forecast.slip.model;
+    forecaster_.emplace(Planet::byName(config.planet), config.navigation().filter, config.forecast);
+  }
+
+  void subscribe(const Config&) override { listen<ForecastInput>(kForecastInputTopic, &ForecastNodelet::onInput); }
+
+  void advertise(const Config& config) override {
+    slip_publisher_ = publisher<SlipForecast>(config.topics.slip_forecast);
+    error_publisher_ = publisher<ErrorForecast>(config.topics.error_forecast);
+    progress_publisher_ = publisher<std_msgs::Header>(kForecastProgressTopic);
+  }
+
+  void onInput(const ForecastInput::ConstPtr& message) {
+    const double begin_s = now();
+    const Estimate estimate = estimateOf(*message);
+    newest_ = estimate.nav.stamp;
+    if (const std::optional<Forecast> forecast = forecaster_->push(estimate, covarianceOf(*message))) {
+      computation_ms_ = 1e3 * (now() - begin_s);
+      publish(*forecast);
+    } else if (!forecaster_->problem().empty()) {
+      NODELET_WARN_THROTTLE(5.0, "no forecast at %.1f s: %s", toSeconds(newest_), forecaster_->problem().c_str());
+    }
+    const auto progress = boost::make_shared<std_msgs::Header>();
+    progress->stamp = message->state.stamp;
+    progress_publisher_.publish(std_msgs::Header::ConstPtr(progress));
+  }
+
+  void publish(const Forecast& forecast) {
+    ++forecasts_;
+    last_ = forecast.error.stamp;
+    fit_ = forecast.fit;
+    time_to_stop_s_ = forecast.error.time_to_stop_s;
+    const auto slip = boost::make_shared<SlipForecast>();
+    fill(forecast, model_, computation_ms_, frames_, *slip);
+    slip_publisher_.publish(SlipForecast::ConstPtr(slip));
+    const auto error = boost::make_shared<ErrorForecast>();
+    fill(forecast.error, frames_, *error);
+    error_publisher_.publish(ErrorForecast::ConstPtr(error));
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
+    using diagnostic_msgs::DiagnosticStatus;
+    const double age_s = toSeconds(newest_ - last_);
+    if (newest_ == 0) {
+      status.summary(DiagnosticStatus::OK, "waiting for estimates");
+    } else if (!forecaster_->problem().empty()) {
+      status.summary(DiagnosticStatus::WARN, "no forecast: " + forecaster_->problem());
+    } else if (fit_.status != SlipFitStatus::kConverged && forecasts_ > 0) {
+      status.summary(DiagnosticStatus::WARN, std::string("the fit did not converge: ") + toString(fit_.status));
+    } else {
+      status.summary(DiagnosticStatus::OK, forecasts_ > 0 ? "forecasting" : "collecting slip");
+    }
+    status.add("forecasts", forecasts_);
+    status.addf("age of the forecast [s]", "%.1f", forecasts_ > 0 ? age_s : 0.0);
+    status.addf("computation [ms]", "%.1f", computation_ms_);
+    status.addf("time to stop [s]", "%.1f", time_to_stop_s_);
+    status.add("slip samples", fit_.samples);
+    status.add("slip samples left out", fit_.left_out);
+    status.addf("log marginal likelihood", "%.2f", fit_.log_marginal_likelihood);
+    for (const auto& [name, value] : fit_.hyperparameters) {
+      status.addf(name, "%.4g", value);
+    }
+  }
+
+  FrameNames frames_;
+  std::string model_;
+  std::optional<Forecaster> forecaster_;
+  SlipFit fit_;
+  double time_to_stop_s_ = 0.0;
+  double computation_ms_ = 0.0;
+  std::uint64_t forecasts_ = 0;
+  Nanoseconds newest_ = 0;  ///< estimate
+  Nanoseconds last_ = 0;    ///< forecast
+  ros::Publisher slip_publisher_;
+  ros::Publisher error_publisher_;
+  ros::Publisher progress_publisher_;
+};
+
+}  // namespace slipnav
+
+PLUGINLIB_EXPORT_CLASS(slipnav::ForecastNodelet, nodelet::Nodelet)
