@@ -36,6 +36,8 @@ class RunData:
         for one in (self.filter, self.wheel_track, self.nees, self.forecasts, self.slip_forecasts, self.truth):
             one["t"] = one["t"] - self.start
         self.timeline["t"] = self.timeline["t"] - self.start
+        covered = (self.truth["t"] >= 0.0) & (self.truth["t"] <= self.timeline["t"][-1])
+        self.truth = {name: column[covered] for name, column in self.truth.items()}
 
     def stops(self):
         """Standstills as (begin, end, east, north); those of the first and last epoch are no stops."""

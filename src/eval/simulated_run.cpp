@@ -19,4 +19,22 @@ void SimulatedRun::add(const sim::Measurements& measurements, const sim::TruthSt
   }
 }
 
+RunReport simulateAndMeasure(const Config& config, StopPolicy& policy, const DriveSink& recorder) {
+  SimulatedRun run(config);
+  run.onEstimate([&config, &policy](const Estimate& estimate, const ErrorCovariance& P) {
+    policy.observe(observationOf(estimate, P, config.stationary.wheel_speed_mps));
+  });
+  run.onForecast([&policy](const ErrorOutlook& forecast) {
+    policy.setForecast({forecast.stamp, forecast.time_to_stop_s});
+  });
+  simulateDrive(config.simulator, Planet::byName(config.planet), policy,
+                [&run, &recorder](const sim::Measurements& measurements, const sim::TruthState& truth) {
+                  run.add(measurements, truth);
+                  if (recorder) {
+                    recorder(measurements, truth);
+                  }
+                });
+  return run.finish();
+}
+
 }  // namespace slipnav

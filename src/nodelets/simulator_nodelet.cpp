@@ -10,7 +10,6 @@
 #include <nav_msgs/Odometry.h>
 #include <slipnav/NavState.h>
 #include <slipnav/Slip.h>
-#include <slipnav/StartState.h>
 #include <slipnav/StopStatus.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -23,6 +22,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation_options.h"
 #include "slipnav/eval/simulated_run.h"
 #include "slipnav/eval/track_comparison.h"
 #include "slipnav/ros/bag_evaluation.h"
@@ -43,26 +43,6 @@ constexpr double kPatienceLimit_s = 60.0;
 constexpr double kBlindAdvance_s = 1.0;
 /// The initial state may come so much later than offline [s]: it waits for the next sample of every sensor.
 constexpr double kStartLag_s = 1.0;
-
-/// What launch files set beside the configuration.
-struct SimulationOptions {
-  std::string policy;
-  std::string out;
-  std::string bag;
-  bool report = false;
-  double rate = 0.0;  ///< factor on real time; 0: as fast as it goes
-
-  explicit SimulationOptions(const ros::NodeHandle& node)
-      : policy(node.param<std::string>("policy", "none")),
-        out(node.param<std::string>("out", "")),
-        bag(node.param<std::string>("bag", "")),
-        report(node.param("report", false)),
-        rate(node.param("rate", 0.0)) {
-    if (!(rate >= 0.0)) {
-      throw std::invalid_argument("rate must not be negative");
-    }
-  }
-};
 
 }  // namespace
 
@@ -87,7 +67,6 @@ class SimulatorNodelet : public CoreNodelet {
   }
 
   void subscribe(const Config& config) override {
-    listen<StartState>(kInitialStateTopic, &SimulatorNodelet::onInitialState);
     listen<StopStatus>(config.topics.stop, &SimulatorNodelet::onStatus);
     listen<nav_msgs::Odometry>(config.topics.odometry, &SimulatorNodelet::onOdometry);
     listen<NavState>(config.topics.nav_state, &SimulatorNodelet::record<NavState>);
@@ -189,9 +168,9 @@ class SimulatorNodelet : public CoreNodelet {
     }
   }
 
-  bool mayGoOn() const {
-    return (options_->rate == 0.0 && nodelets_started_) || drive_->truth().stamp < allowed_until_;
-  }
+  bool estimatesCome() const { return newest_status_ != 0; }
+
+  bool mayGoOn() const { return (options_->rate == 0.0 && estimatesCome()) || drive_->truth().stamp < allowed_until_; }
 
   /// The operator commands; with a supervisor, what comes back will be executed.
   void command() {
@@ -229,7 +208,7 @@ class SimulatorNodelet : public CoreNodelet {
       bag_->write(measurements, drive_->truth());
     }
     waitFor(Waiting::kForStatus);
-    awaited_ = nodelets_started_ ? config_.topics.stop : kInitialStateTopic;
+    awaited_ = config_.topics.stop;
     sensors_->publish(measurements, drive_->truth());
   }
 
@@ -238,15 +217,10 @@ class SimulatorNodelet : public CoreNodelet {
     if (run_->newestStamp() == 0) {
       return true;
     }
-    if (!nodelets_started_) {
+    if (!estimatesCome()) {
       return drive_->truth().stamp < offline_start_ + fromSeconds(kStartLag_s);
     }
     return newest_status_ >= run_->newestStamp();
-  }
-
-  void onInitialState(const StartState::ConstPtr&) {
-    nodelets_started_ = true;
-    proceed();
   }
 
   void onStatus(const StopStatus::ConstPtr& message) {
@@ -317,8 +291,7 @@ class SimulatorNodelet : public CoreNodelet {
   double tick_s_ = 0.0;
   double begun_s_ = 0.0;
   Nanoseconds offline_start_ = 0;
-  bool nodelets_started_ = false;
-  Nanoseconds newest_status_ = 0;
+  Nanoseconds newest_status_ = 0;  ///< 0: there has been no estimate so far
   std::unique_ptr<SensorPublisher> sensors_;
   ros::Publisher command_publisher_;
 };

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <locale>
 #include <sstream>
 
 namespace slipnav {
@@ -43,7 +44,7 @@ std::string supervisorLine(const DrivePicture& picture, const StopStatus* stop) 
     case StopStatus::COUNTING_DOWN:
       return "STOP IN " + left;
     case StopStatus::STOPPING:
-      return "STOPPING";
+      return stop->mode == StopStatus::MODE_ADVISE ? "STOP ADVISED" : "STOPPING";
     case StopStatus::HOLDING:
       return timed ? "HOLDING, " + left + " left" : "HOLDING";
     default:
@@ -78,7 +79,7 @@ struct Entry {
 std::array<Entry, 8> legendEntries(const OverlayParams& params) {
   const std::string full = formatted(params.slip_full_scale, 1);
   return {{{kEstimateColour, kEstimateColour, "estimate, 3 sigma"},
-           {kTruthColour, kTruthColour, "truth (DGPS)"},
+           {kTruthColour, kTruthColour, "truth"},
            {kDeadReckoningColour, kDeadReckoningColour, "wheels and gyro alone"},
            {kErrorColour, kErrorColour, "error"},
            {kStopColour, kStopColour, "stop: error before > after"},
@@ -92,7 +93,9 @@ std::array<Entry, 8> legendEntries(const OverlayParams& params) {
 std::string formatted(double value, int decimals) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  out << std::fixed << std::setprecision(decimals) << value;
+  const double unit = std::pow(10.0, decimals);
+  const double rounded = std::round(value * unit) / unit;
+  out << std::fixed << std::setprecision(decimals) << rounded + 0.0;  // no negative zero
   return out.str();
 }
 

@@ -47,28 +47,17 @@ Config configuration(const Arguments& arguments) {
 
 /// Drives, navigates and records; returns what there is to say about it.
 slipnav::RunReport drive(const Config& config, slipnav::StopPolicy& policy, const std::string& bag) {
-  std::optional<slipnav::BagWriter> recorder;
-  if (!bag.empty()) {
-    recorder.emplace(bag, config);
+  if (bag.empty()) {
+    return slipnav::simulateAndMeasure(config, policy);
   }
-  slipnav::SimulatedRun run(config);
-  run.onEstimate([&](const slipnav::Estimate& estimate, const slipnav::ErrorCovariance& P) {
-    policy.observe(slipnav::observationOf(estimate, P, config.stationary.wheel_speed_mps));
-  });
-  run.onForecast([&policy](const slipnav::ErrorOutlook& forecast) {
-    policy.setForecast({forecast.stamp, forecast.time_to_stop_s});
-  });
-  slipnav::simulateDrive(config.simulator, slipnav::Planet::byName(config.planet), policy,
-                         [&](const slipnav::sim::Measurements& measurements, const slipnav::sim::TruthState& truth) {
-                           run.add(measurements, truth);
-                           if (recorder) {
-                             recorder->write(measurements, truth);
-                           }
-                         });
-  if (recorder) {
-    recorder->close();
-  }
-  return run.finish();
+  slipnav::BagWriter recorder(bag, config);
+  const slipnav::RunReport report = slipnav::simulateAndMeasure(
+      config, policy,
+      [&recorder](const slipnav::sim::Measurements& measurements, const slipnav::sim::TruthState& truth) {
+        recorder.write(measurements, truth);
+      });
+  recorder.close();
+  return report;
 }
 
 int run(int argc, char** argv) {

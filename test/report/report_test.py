@@ -35,6 +35,7 @@ from slipnav_report.run_data import RunData, read_tum  # noqa: E402
 MOST_BYTES = 5_000_000
 MOST_SECONDS = 60.0  # for a drive of a minute on a machine that is busy; see doc/visualisation.md for what it takes
 THRESHOLD_M = 0.8
+LEAST_PIXELS = 30  # of pure colour; the edges of lines are blended
 
 
 def write_forecasts(directory, start):
@@ -109,7 +110,7 @@ class ReportTest(unittest.TestCase):
             for colour in wanted[name]:
                 rgb = np.array(matplotlib.colors.to_rgb(getattr(palette, colour)))
                 near = np.count_nonzero(np.abs(pixels - rgb).max(axis=1) < 0.03)
-                self.assertGreater(near, 100, f"{name} has no {colour}")
+                self.assertGreater(near, LEAST_PIXELS, f"{name} has no {colour}")
 
     def test_page_has_the_table_row(self):
         cells = re.findall(r"<td>([^<]*)</td>", self.page())

@@ -24,11 +24,15 @@ TEST(LaunchFiles, AreUnderstood) {
   EXPECT_EQ(roslaunchStatus({"replay.launch", "bag:=drive.bag", "config:=default,husky_mocap", "out:=somewhere",
                              "report:=true", "truth:=truth/fix", "options:=--set planet=mars"}),
             0);
+  EXPECT_EQ(roslaunchStatus({"simulate.launch", "terrain:=gravel", "distance:=10", "seed:=7", "policy:=periodic:12:3",
+                             "rate:=5", "out:=somewhere", "report:=true", "rviz:=true"}),
+            0);
 }
 
 TEST(LaunchFiles, AWrongConfigurationIsAnError) {
   EXPECT_NE(roslaunchStatus({"nodelets.launch", "config:=nonsense"}), 0);
   EXPECT_NE(roslaunchStatus({"nodelets.launch", "options:=--set planet=pluto"}), 0);
+  EXPECT_NE(roslaunchStatus({"simulate.launch", "terrain:=sea"}), 0);
 }
 
 }  // namespace

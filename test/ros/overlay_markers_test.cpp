@@ -104,7 +104,7 @@ TEST_F(OverlayMessagesTest, NoStopIsAheadWhereTheThresholdIsFar) {
 TEST_F(OverlayMessagesTest, WhatIsGoneIsDeletedOnce) {
   forecast(2.0);
   ASSERT_NE(find(all(), "forecast"), nullptr);
-  forecast(2.0, 60.0);  // an old one
+  forecast(2.0, 15.0);  // an old one
   auto markers = all();
   EXPECT_EQ(find(markers, "forecast"), nullptr);
   const auto deletions = [](const std::vector<Marker>& list) {
@@ -143,6 +143,9 @@ TEST_F(OverlayMessagesTest, ThePanelSaysWhatTheSupervisorDoes) {
   stop->time_left_s = 12.4;
   messages_.stop = stop;
   EXPECT_EQ(panel(all()).substr(0, 13), "STOP IN 12 s\n");
+  stop->state = StopStatus::STOPPING;
+  stop->mode = StopStatus::MODE_ADVISE;
+  EXPECT_EQ(panel(all()).substr(0, 13), "STOP ADVISED\n");
   EXPECT_NE(panel(all()).find("slip 0.15\ndistance 9.0 m\nerror: no truth\n3 sigma 0.60 m"), std::string::npos)
       << panel(all());
 }

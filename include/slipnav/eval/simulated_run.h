@@ -33,4 +33,8 @@ class SimulatedRun {
   OfflineRun run_;
 };
 
+/// Drives with a policy that is given the estimates as they come, from begin to end.
+/// @param recorder what else is to be done with each interval
+RunReport simulateAndMeasure(const Config& config, StopPolicy& policy, const DriveSink& recorder = {});
+
 }  // namespace slipnav

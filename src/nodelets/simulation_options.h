@@ -1,0 +1,30 @@
+#pragma once
+/// What launch files set for the simulator beside the configuration: its private parameters.
+
+#include <ros/node_handle.h>
+
+#include <stdexcept>
+#include <string>
+
+namespace slipnav {
+
+struct SimulationOptions {
+  std::string policy;   ///< none, periodic:EVERY_S:HOLD_S (the operator stops), autonomous (the supervisor does)
+  std::string out;      ///< folder of the results; empty: none
+  std::string bag;      ///< file of the recording; empty: none
+  bool report = false;  ///< plots into `out`
+  double rate = 0.0;    ///< factor on real time; 0: as fast as it goes
+
+  explicit SimulationOptions(const ros::NodeHandle& node)
+      : policy(node.param<std::string>("policy", "none")),
+        out(node.param<std::string>("out", "")),
+        bag(node.param<std::string>("bag", "")),
+        report(node.param("report", false)),
+        rate(node.param("rate", 0.0)) {
+    if (!(rate >= 0.0)) {
+      throw std::invalid_argument("rate must not be negative");
+    }
+  }
+};
+
+}  // namespace slipnav

@@ -1,0 +1,82 @@
+/// A drive through the nodelets, whose stops the supervisor decides, against the same drive offline: the same stops,
+/// the same trajectory and the same estimates, to the last digit.
+
+#include <gtest/gtest.h>
+#include <nodelet/NodeletLoad.h>
+#include <ros/ros.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "slipnav/eval/simulated_run.h"
+#include "slipnav/ros/parameters.h"
+
+namespace slipnav {
+namespace {
+
+/// A folder for results; it is removed in the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    char name[] = "/tmp/slipnav_test_XXXXXX";
+    if (mkdtemp(name) == nullptr) {
+      throw std::runtime_error("no temporary folder can be made");
+    }
+    path_ = name;
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+std::string contents(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+/// Has the simulator drive in the manager of the launch file, until it has written its results to `folder`.
+void driveThroughNodelets(const std::string& folder) {
+  ros::NodeHandle node;
+  node.setParam("/simulator/policy", "none");  // of the operator, who leaves the stops to the supervisor
+  node.setParam("/simulator/out", folder);
+  nodelet::NodeletLoad load;
+  load.request.name = "/simulator";
+  load.request.type = "slipnav/Simulator";
+  ASSERT_TRUE(ros::service::waitForService("/slipnav_manager/load_nodelet", ros::Duration(20.0)));
+  ASSERT_TRUE(ros::service::call("/slipnav_manager/load_nodelet", load));
+  const ros::SteadyTime begin = ros::SteadyTime::now();
+  while (!std::filesystem::exists(folder + "/metrics.json")) {  // the last file
+    ASSERT_LT((ros::SteadyTime::now() - begin).toSec(), 120.0) << "the simulation does not end";
+    ros::WallDuration(0.1).sleep();
+  }
+}
+
+TEST(SimulateEquality, TheDriveIsThatOfTheOfflineSimulation) {
+  const Config config = configFromParameters(ros::NodeHandle(), "slipnav");
+  const TemporaryFolder folder;
+  const RunReport offline = simulateAndMeasure(config, *makeStopPolicy("autonomous", config.stop));
+  EXPECT_GE(offline.metrics.stop_count, 2);
+  writeRunReport(folder / "offline", offline);
+  driveThroughNodelets(folder / "nodelets");
+  for (const std::string file : {"truth.tum", "timeline.csv", "estimate.tum", "forecasts.csv"}) {
+    EXPECT_TRUE(contents(folder / "nodelets/" + file) == contents(folder / "offline/" + file)) << file;
+  }
+}
+
+}  // namespace
+}  // namespace slipnav
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "simulate_equality");
+  return RUN_ALL_TESTS();
+}
