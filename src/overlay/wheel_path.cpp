@@ -25,7 +25,6 @@ void WheelPath::start(const PlanarSample& pose) {
   if (started_) {
     return;
   }
-  release(pose.stamp);
   reckoning_.start(pose);
   started_ = true;
   release(std::numeric_limits<Nanoseconds>::max());
