@@ -8,6 +8,8 @@ namespace {
 
 /// Weight of the newest sample in the recent wheel speed.
 constexpr double kRecentSpeedGain = 0.3;
+/// Fast slip with a larger variance, against what is usual, is that of a wheel that has lost its grip.
+constexpr double kKnownSlip = 4.0;
 constexpr double kIntervalTolerance_s = 1e-3;
 constexpr std::size_t kMaxWaiting = 4096;  // wheel samples kept while there is no initial state yet
 
@@ -35,6 +37,8 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
       detector_(setup.stationary),
       update_(setup.filter),
       tremor_(setup.zero),
+      slip_ground_(setup.filter.ground),
+      side_slip_ground_(setup.filter.ground),
       use_wheel_(setup.filter.uses("wheel")),
       use_nonholonomic_(setup.filter.uses("nonholonomic")),
       use_zupt_(setup.filter.uses("zupt")),
@@ -59,6 +63,8 @@ void FilterEngine::initialise(const InitialState& initial) {
   detector_.reset();
   update_ = GatedUpdate(setup_.filter);
   tremor_ = Tremor(setup_.zero);
+  slip_ground_ = GroundFactor(setup_.filter.ground);
+  side_slip_ground_ = GroundFactor(setup_.filter.ground);
   if (initial.tremor_variance > 0.0) {
     tremor_.setVariance(initial.tremor_variance);
   }
@@ -145,6 +151,9 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   const Vector3 v_start_b = referenceVelocity(step);
   const double duration_s = toSeconds(step.state.stamp - step.start);
   transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
+  transition_.noise(kSlowSlip) *= slip_ground_.variance();
+  transition_.noise(kFastSlip) *= slip_ground_.variance();
+  transition_.noise(kSideSlip) *= side_slip_ground_.variance();
   ErrorDynamics::propagate(transition_, P_);
   ErrorDynamics::decay(transition_, vehicle_);
   if (step.gap_s > 0.0) {
@@ -215,17 +224,26 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
     tremor_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
   }
   const std::uint64_t zero_updates = update_.status(kZeroVelocity).accepted;
-  const std::uint64_t wheel_updates = update_.status(kForwardSpeed).accepted;
-  const std::uint64_t wheel_rejections = update_.status(kForwardSpeed).rejected;
+  const ComponentStatus forward = update_.status(kForwardSpeed);
+  const ComponentStatus lateral = update_.status(kLateral);
+  const bool grip = P_(kFastSlip, kFastSlip) < kKnownSlip * square(setup_.vehicle.fast_slip_std);
   const bool corrected = update(at_rest ? restingMeasurements(motion) : movingMeasurements(wheels, motion));
   if (at_rest || verticalMeanIsDue()) {
     vertical_average_.restart(wheels.stamp);
   }
-  if (update_.status(kForwardSpeed).rejected > wheel_rejections) {
+  if (grip && update_.status(kForwardSpeed).measured() > forward.measured()) {
+    slip_ground_.learn(update_.status(kForwardSpeed).last_nis);
+  }
+  if (update_.status(kLateral).measured() > lateral.measured()) {
+    side_slip_ground_.learn(update_.status(kLateral).last_nis);
+  }
+  if (update_.status(kForwardSpeed).rejected > forward.rejected) {
     dynamics_.loosenFastSlip(P_);
     slipping_until_ = wheels.stamp + fromSeconds(setup_.vehicle.slip_impulse_time_s);
   }
-  estimate_.wheel_speed_used = update_.status(kForwardSpeed).accepted > wheel_updates;
+  estimate_.wheel_speed_used = update_.status(kForwardSpeed).accepted > forward.accepted;
+  estimate_.slip_factor = slip_ground_.variance();
+  estimate_.side_slip_factor = side_slip_ground_.variance();
   estimate_.stationary = at_rest && (!use_zupt_ || update_.status(kZeroVelocity).accepted > zero_updates);
   return corrected;
 }
@@ -236,15 +254,17 @@ MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const
   if (use_wheel_) {
     if (wheels.stamp > slipping_until_) {
       const double slip_variance = P_.block<3, 3>(kWheelScale, kWheelScale).sum();
-      set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, recent_wheel_speed_mps_,
-                                                     motion, state_, vehicle_, slip_variance, lever_b));
+      set.add(kForwardSpeed,
+              forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, recent_wheel_speed_mps_, motion, state_,
+                                      vehicle_, slip_variance, slip_ground_.variance(), lever_b));
     }
     if (wheels.motion.has_yaw_rate) {
       set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheels.motion.yaw_rate_radps, motion));
     }
   }
   if (use_nonholonomic_) {
-    const Measurement lateral = lateralMeasurement(setup_.nonholonomic, motion, state_, vehicle_, lever_b);
+    const Measurement lateral =
+        lateralMeasurement(setup_.nonholonomic, motion, state_, vehicle_, side_slip_ground_.variance(), lever_b);
     if (!isExcessiveSideSlip(setup_.nonholonomic, motion, vehicle_, lateral.variance(0))) {
       set.add(kLateral, lateral);
     }

@@ -67,8 +67,12 @@ void CovarianceForecast::restart(const ErrorCovariance& P, bool growth) {
 
 ErrorTransition CovarianceForecast::transition(const DriveStep& step) const {
   const Vector3 f_ib_n = step.acceleration_n - planet_.gravity_n(step.state.position);
-  return dynamics_.transition(step.state, step.state, step.state.q_b_to_n.conjugate() * f_ib_n, Vector3::Zero(),
-                              step_s_);
+  ErrorTransition t =
+      dynamics_.transition(step.state, step.state, step.state.q_b_to_n.conjugate() * f_ib_n, Vector3::Zero(), step_s_);
+  t.noise(kSlowSlip) *= step.slip_factor;
+  t.noise(kFastSlip) *= step.slip_factor;
+  t.noise(kSideSlip) *= step.side_slip_factor;
+  return t;
 }
 
 ErrorTransition CovarianceForecast::onGround(ErrorTransition transition, const GroundOutlook& outlook) const {
@@ -84,8 +88,9 @@ CovarianceForecast::Odometry CovarianceForecast::odometry(const DriveStep& step,
   motion.duration_s = step_s_;
   motion.v_eb_b = Vector3(step.speed_mps, 0.0, 0.0);
   const Measurement forward = forwardSpeedMeasurement(setup_.wheel, step.wheel_speed_mps, step.wheel_speed_mps, motion,
-                                                      step.state, {}, 0.0, lever_b);
-  const Measurement lateral = lateralMeasurement(setup_.nonholonomic, motion, step.state, {}, lever_b);
+                                                      step.state, {}, 0.0, step.slip_factor, lever_b);
+  const Measurement lateral =
+      lateralMeasurement(setup_.nonholonomic, motion, step.state, {}, step.side_slip_factor, lever_b);
   const Measurement vertical = verticalMeasurement(setup_.nonholonomic, motion, step.state, {}, lever_b);
   const double wheel_samples = std::max(step.wheel_share, kLeastShare) * samples_per_step_;
   const double vertical_samples =

@@ -72,6 +72,8 @@ void Forecaster::follow(const Estimate& estimate, const ErrorCovariance& P) {
   step.speed_mps = estimate.motion.v_eb_b.x();
   step.wheel_speed_mps = estimate.wheels.motion.forward_mps;
   step.wheel_share = open_step_.used / open_step_.samples;
+  step.slip_factor = estimate.slip_factor;
+  step.side_slip_factor = estimate.side_slip_factor;
   covariance_.follow(step, P, outlook_);
   open_step_ = {now, estimate.nav.v_eb_n, 0.0, 0.0};
 }
@@ -203,6 +205,8 @@ std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {
     step.speed_mps = outlook_.speed_mps;
     step.wheel_speed_mps = outlook_.wheel_speed_mps;
     step.wheel_share = outlook_.wheel_share;
+    step.slip_factor = estimate.slip_factor;
+    step.side_slip_factor = estimate.side_slip_factor;
     v_before_n = step.state.v_eb_n;
   }
   return steps;

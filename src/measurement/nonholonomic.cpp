@@ -32,7 +32,7 @@ void NonholonomicParams::visit(ParameterVisitor& v) {
 }
 
 Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavigationState& state,
-                               const VehicleState& vehicle, const Vector3& lever_b) {
+                               const VehicleState& vehicle, double ground, const Vector3& lever_b) {
   const double v_x = motion.v_eb_b.x();
   const double angle = vehicle.mount_yaw_rad - vehicle.side_slip;
   const Eigen::Matrix<double, 3, kErrorStates> H_v = bodyVelocityJacobian(state, lever_b);
@@ -41,7 +41,7 @@ Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotio
   m.H = H_v.row(1) + angle * H_v.row(0);
   m.H(0, kMountYaw) = v_x;
   m.H(0, kSideSlip) = -v_x;
-  m.variance(0) = square(params.lateral_std_mps) + square(params.lateral_slope_std * v_x) +
+  m.variance(0) = square(params.lateral_std_mps) + ground * square(params.lateral_slope_std * v_x) +
                   square(params.lateral_turn_std_m * motion.omega_ib_b.z());
   return m;
 }

@@ -23,7 +23,8 @@ void WheelOdometryParams::visit(ParameterVisitor& v) {
 
 Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
                                     double slipping_speed_mps, const BodyMotion& motion, const NavigationState& state,
-                                    const VehicleState& vehicle, double slip_variance, const Vector3& lever_b) {
+                                    const VehicleState& vehicle, double slip_variance, double ground,
+                                    const Vector3& lever_b) {
   const double slip = vehicle.wheel_scale + vehicle.slow_slip + vehicle.fast_slip;
   Measurement m(1);
   m.residual(0) = wheel_speed_mps - (motion.v_eb_b.x() + slipping_speed_mps * slip);
@@ -32,7 +33,7 @@ Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wh
   m.H(0, kSlowSlip) = slipping_speed_mps;
   m.H(0, kFastSlip) = slipping_speed_mps;
   const double changed_mps = wheel_speed_mps - slipping_speed_mps;
-  m.variance(0) = square(params.speed_std_mps) + square(params.slip_noise_std * slipping_speed_mps) +
+  m.variance(0) = square(params.speed_std_mps) + ground * square(params.slip_noise_std * slipping_speed_mps) +
                   square(changed_mps) * (square(slip) + slip_variance);
   return m;
 }

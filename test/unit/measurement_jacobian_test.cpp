@@ -92,7 +92,9 @@ TEST(MeasurementJacobian, YawRate) {
 }
 
 TEST(MeasurementJacobian, Lateral) {
-  const Model model = [](const Point& p) { return lateralMeasurement({}, motionOf(p), p.nav, p.vehicle, p.lever_b); };
+  const Model model = [](const Point& p) {
+    return lateralMeasurement({}, motionOf(p), p.nav, p.vehicle, 1.0, p.lever_b);
+  };
   expectJacobian("lateral", model, {});
   sim::RandomStream random(2, "columns");
   const Point point = randomPoint(random);
@@ -156,7 +158,7 @@ TEST(MeasurementResidual, IsZeroAtTheTruth) {
     const BodyMotion motion{0.1, v_b, p.measured_rate_b - p.nav.gyro_bias_b};
     const double slip = p.vehicle.wheel_scale + p.vehicle.slow_slip + p.vehicle.fast_slip;
     EXPECT_NEAR(steadyWheelSpeed({}, v_x / (1.0 - slip), motion, p.nav, p.vehicle, p.lever_b).residual(0), 0.0, 1e-15);
-    EXPECT_NEAR(lateralMeasurement({}, motion, p.nav, p.vehicle, p.lever_b).residual(0), 0.0, 1e-15);
+    EXPECT_NEAR(lateralMeasurement({}, motion, p.nav, p.vehicle, 1.0, p.lever_b).residual(0), 0.0, 1e-15);
     EXPECT_NEAR(verticalMeasurement({}, motion, p.nav, p.vehicle, p.lever_b).residual(0), 0.0, 1e-15);
     EXPECT_NEAR(yawRateMeasurement({}, motion.omega_ib_b.z(), motion).residual(0), 0.0, 1e-15);
 

@@ -53,6 +53,8 @@ struct ComponentStatus {
   double nis_sum = 0.0;            ///< of the accepted ones, each divided by its degrees of freedom
   double last_nis = 0.0;           ///< likewise, accepted or not
   Nanoseconds rejected_since = 0;  ///< 0 while the last one was accepted
+
+  std::uint64_t measured() const { return accepted + rejected; }
 };
 
 /// The filter's answer for the end of one step.
@@ -62,6 +64,8 @@ struct Estimate {
   Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean specific force of the step [m/s²]
   Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean rate of the step [rad/s]
   VehicleState vehicle;
+  double slip_factor = 1.0;       ///< on the variances of slip, see GroundFactor
+  double side_slip_factor = 1.0;  ///< on the variances of side slip, likewise
   bool stationary = false;
   bool wheel_speed_used = false;  ///< the forward speed of that sample passed its gate
   bool has_wheels = false;        ///< a wheel sample ended in this step

@@ -76,6 +76,8 @@ class FilterEngine {
   StationaryDetector detector_;
   GatedUpdate update_;
   Tremor tremor_;
+  GroundFactor slip_ground_;
+  GroundFactor side_slip_ground_;
   bool use_wheel_;
   bool use_nonholonomic_;
   bool use_zupt_;

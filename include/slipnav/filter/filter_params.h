@@ -6,6 +6,7 @@
 
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/filter/error_dynamics.h"
+#include "slipnav/filter/ground_factor.h"
 #include "slipnav/measurement/nonholonomic.h"
 #include "slipnav/measurement/wheel_odometry.h"
 #include "slipnav/measurement/zero_motion.h"
@@ -22,6 +23,7 @@ struct FilterParams {
   double max_wheel_interval_s = 0.5;
   double gap_rate_std_deg_per_s = 10.0;
   double gap_accel_std_mps2 = 0.5;
+  GroundFactorParams ground;
   void visit(ParameterVisitor& v);
 
   bool uses(const std::string& update) const;

@@ -37,6 +37,8 @@ struct DriveStep {
   double speed_mps = 0.0;                    ///< forward, over ground
   double wheel_speed_mps = 0.0;              ///< circumferential
   double wheel_share = 1.0;                  ///< of the wheel speeds that the filter used or will use
+  double slip_factor = 1.0;                  ///< by which the filter scales its variances of slip
+  double side_slip_factor = 1.0;             ///< likewise of side slip
 };
 
 class CovarianceForecast {

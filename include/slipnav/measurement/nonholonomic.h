@@ -21,8 +21,9 @@ struct NonholonomicParams {
 };
 
 /// Lateral speed of the reference point: v_y + ψ_m v_x − tan β v_x = 0.
+/// @param ground on the variance of the sway, see GroundFactor
 Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavigationState& state,
-                               const VehicleState& vehicle, const Vector3& lever_b);
+                               const VehicleState& vehicle, double ground, const Vector3& lever_b);
 
 /// Whether the rover slides sideways so much that the lateral constraint says nothing: the slip angle is beyond its
 /// limit and the lateral speed is more than the constraint's own noise can explain.
