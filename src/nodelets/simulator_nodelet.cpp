@@ -263,8 +263,12 @@ class SimulatorNodelet : public CoreNodelet {
     }
     const std::string name = config_.simulator.terrain + " " + std::to_string(config_.simulator.seed);
     std::cout << comparisonText("simulate", report.estimates, offline.estimates) << tableHeader()
-              << tableRow(name, std::nullopt, report.metrics) << std::flush;
+              << tableRow(name, thresholdInForce(), report.metrics) << std::flush;
     ros::requestShutdown();
+  }
+
+  std::optional<double> thresholdInForce() const {
+    return options_->policy == "autonomous" ? std::optional(config_.forecast.threshold_m) : std::nullopt;
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {

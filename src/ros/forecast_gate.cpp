@@ -31,7 +31,7 @@ void ForecastGate::dealtWith(Nanoseconds stamp) {
 }
 
 bool ForecastGate::mayGo(const Held& held, double now_s) {
-  if (held.observation.stamp <= dealt_with_) {
+  if (!held.observation.has_wheels || held.observation.stamp <= dealt_with_) {
     return true;
   }
   silent_ = silent_ || now_s - held.time_s >= kPatience_s;

@@ -82,7 +82,7 @@ RoverObservation RoverObserver::observe(const NavState& message) {
   observation.forward_mps = forward_mps_;
   observation.speed_std_mps = std::sqrt((P[kFirst] + P[kFirst + kRow] + P[kFirst + 2 * kRow]) / 3.0);
   observation.stationary = message.status == NavState::STATUS_STATIONARY;
-  observation.zero_update = observation.stationary && has_wheels_;
+  observation.has_wheels = has_wheels_;
   observation.wheels_at_rest = wheels_at_rest_;
   has_wheels_ = false;
   return observation;

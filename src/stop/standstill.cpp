@@ -5,7 +5,7 @@ namespace slipnav {
 void Standstill::observe(const RoverObservation& observation) {
   newest_ = observation.stamp;
   standing_ = observation.stationary;
-  zero_updates_ = standing_ ? zero_updates_ + (observation.zero_update ? 1 : 0) : 0;
+  zero_updates_ = standing_ ? zero_updates_ + (observation.has_wheels ? 1 : 0) : 0;
   if (standing_ || !observation.wheels_at_rest) {
     unaccepted_since_.reset();
   } else if (!unaccepted_since_) {

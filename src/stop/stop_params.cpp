@@ -19,7 +19,8 @@ void StopParams::visit(ParameterVisitor& v) {
   v.number("countdown_s", countdown_s, {0.0, 3600.0}, "a stop is announced so long before it begins [s]");
   v.number("min_drive_s", min_drive_s, {0.0, 3600.0}, "shortest drive between two stops [s]");
   v.number("forecast_timeout_s", forecast_timeout_s, {0.5, 3600.0},
-           "without a new forecast for so long while driving, stops become periodic [s]");
+           "without a new forecast for so long while driving, stops become periodic; longer than the window where a "
+           "forecast is made once a window [s]");
   v.number("fallback_interval_s", fallback_interval_s, {1.0, 3600.0}, "drive between those periodic stops [s]");
   v.number("slide_after_s", slide_after_s, {0.1, 600.0},
            "wheels that stand for so long without an accepted standstill mean that the rover slides [s]");

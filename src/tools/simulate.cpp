@@ -82,7 +82,10 @@ int run(int argc, char** argv) {
     slipnav::plotReport(arguments.text("out"));
   }
   const std::string name = arguments.text("terrain") + " " + arguments.text("seed");
-  std::cout << slipnav::tableHeader() << slipnav::tableRow(name, std::nullopt, report.metrics);
+  const bool autonomous = arguments.text("policy") == "autonomous";
+  std::cout << slipnav::tableHeader()
+            << slipnav::tableRow(name, autonomous ? std::optional(config.forecast.threshold_m) : std::nullopt,
+                                 report.metrics);
   return 0;
 }
 

@@ -46,7 +46,7 @@ std::string contents(const std::string& path) {
 /// Has the simulator drive in the manager of the launch file, until it has written its results to `folder`.
 void driveThroughNodelets(const std::string& folder) {
   ros::NodeHandle node;
-  node.setParam("/simulator/policy", "none");  // of the operator, who leaves the stops to the supervisor
+  node.setParam("/simulator/policy", "autonomous");
   node.setParam("/simulator/out", folder);
   nodelet::NodeletLoad load;
   load.request.name = "/simulator";

@@ -83,7 +83,7 @@ class Observer : public ::testing::Test {
     EXPECT_EQ(online.forward_mps, offline.forward_mps);
     EXPECT_NEAR(online.speed_std_mps, offline.speed_std_mps, 1e-12);
     EXPECT_EQ(online.stationary, offline.stationary);
-    EXPECT_EQ(online.zero_update, offline.zero_update);
+    EXPECT_EQ(online.has_wheels, offline.has_wheels);
     EXPECT_EQ(online.wheels_at_rest, offline.wheels_at_rest);
   }
 
@@ -125,9 +125,10 @@ TEST_F(Observer, WithoutWheelsOfItsOwn) {
 /// Writes down what comes out: estimates by their second, forecasts by their negative second.
 class ForecastGateTest : public ::testing::Test {
  protected:
-  void estimate(int second, double now_s = 0.0) {
+  void estimate(int second, double now_s = 0.0, bool has_wheels = true) {
     RoverObservation observation;
     observation.stamp = second * kSecond;
+    observation.has_wheels = has_wheels;
     gate_.push(observation, now_s);
   }
   void forecast(int second) { gate_.push(StopForecast{second * kSecond, 1.0}); }
@@ -163,6 +164,18 @@ TEST_F(ForecastGateTest, PutsForecastsBetweenTheirEstimateAndTheNext) {
   EXPECT_EQ(released(), (std::vector<int>{1, 2, -2}));
   gate_.dealtWith(3 * kSecond);
   EXPECT_EQ(released(), std::vector<int>{3});
+}
+
+TEST_F(ForecastGateTest, HasNoForecastToWaitForBetweenWheelSamples) {
+  gate_.dealtWith(1 * kSecond);
+  estimate(2, 0.0, false);
+  EXPECT_EQ(released(), std::vector<int>{2});
+  estimate(3);
+  estimate(4, 0.0, false);
+  EXPECT_TRUE(released().empty()) << "but the order stays";
+  forecast(3);
+  gate_.dealtWith(3 * kSecond);
+  EXPECT_EQ(released(), (std::vector<int>{3, -3, 4}));
 }
 
 TEST_F(ForecastGateTest, KeepsAForecastUntilItsEstimateHasCome) {

@@ -74,7 +74,7 @@ class RandomDrive {
     const bool standing = motion_ == 1 && !chance(0.02);
     const bool wheels_at_rest = motion_ > 0;
     supervisor_.observe({stamp_, motion_ == 0 ? uniform(-1.0, 1.0) : 0.0, chance(0.02) ? kNan : uniform(0.0, 0.02),
-                         standing, standing && chance(0.5), wheels_at_rest});
+                         standing, chance(0.5), wheels_at_rest});
   }
 
   VelocityCommand drawCommand() {

@@ -56,7 +56,7 @@ class Rig {
  private:
   void observe(double forward_mps, double speed_std_mps, bool stationary, bool wheels_at_rest) {
     stamp += kInterval;
-    supervisor.observe({stamp, forward_mps, speed_std_mps, stationary, stationary, wheels_at_rest});
+    supervisor.observe({stamp, forward_mps, speed_std_mps, stationary, true, wheels_at_rest});
   }
 };
 
@@ -277,6 +277,15 @@ TEST(StopSupervisor, SlowsDownAlongTheArcWithinItsLimit) {
   EXPECT_EQ(steps, 16);  // 0.8 m/s by 0.5 m/s²
 }
 
+TEST(StopSupervisor, AStopThatTheOperatorEndsAtOnceStaysEnded) {
+  Rig rig("active");
+  situations()[3].reach(rig);
+  rig.moving();
+  EXPECT_FALSE(rig.drive().isZero());
+  EXPECT_TRUE(rig.supervisor.command({}).isZero());
+  EXPECT_TRUE(rig.drive().isZero());
+}
+
 TEST(StopSupervisor, ARoverThatStandsIsNotSetInMotionByAStop) {
   Rig rig("active");
   driveTenSeconds(rig);
@@ -319,6 +328,16 @@ TEST(StopSupervisor, AHoldEndsWithConvergence) {
   EXPECT_EQ(rig.supervisor.status().reason, "the velocity has converged after 0.7 s");
   EXPECT_EQ(rig.supervisor.status().stops, 1U);
   EXPECT_TRUE(equal(rig.drive(), driveOn()));
+}
+
+TEST(StopSupervisor, OnlyWheelSamplesBringZeroUpdates) {
+  Rig rig("active");
+  situations()[4].reach(rig);
+  for (int i = 0; i < 20; ++i) {
+    rig.stamp += kInterval / 10;
+    rig.supervisor.observe({rig.stamp, 0.0, 1e-5, true, false, true});
+  }
+  EXPECT_EQ(rig.state(), kH);
 }
 
 TEST(StopSupervisor, AHoldEndsAtItsLimit) {
@@ -453,11 +472,11 @@ TEST(StopSupervisor, ObservesWhatTheFilterSays) {
   EXPECT_EQ(observation.forward_mps, 0.5);
   EXPECT_NEAR(observation.speed_std_mps, 0.02, 1e-15);
   EXPECT_TRUE(observation.stationary);
-  EXPECT_TRUE(observation.zero_update);
+  EXPECT_TRUE(observation.has_wheels);
   EXPECT_TRUE(observation.wheels_at_rest);
   EXPECT_FALSE(observationOf(estimate, P, 0.0009).wheels_at_rest);
   estimate.has_wheels = false;
-  EXPECT_FALSE(observationOf(estimate, P, 0.001).zero_update);
+  EXPECT_FALSE(observationOf(estimate, P, 0.001).has_wheels);
   estimate.wheels.count = 0;
   EXPECT_FALSE(observationOf(estimate, P, 0.001).wheels_at_rest);
 }

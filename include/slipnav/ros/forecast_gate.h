@@ -9,9 +9,9 @@
 
 namespace slipnav {
 
-/// Estimates and forecasts come to the supervisor on different ways. This holds estimates back until the forecaster has
-/// dealt with them. A forecaster that is silent is waited for once, for a moment of real time; it is not waited for
-/// again until it speaks.
+/// Estimates and forecasts come to the supervisor on different ways. This holds an estimate in whose step a wheel
+/// interval ended back until the forecaster, which takes only those, has dealt with it, and all after it. A forecaster
+/// that is silent is waited for once, for a moment of real time; it is not waited for again until it speaks.
 class ForecastGate {
  public:
   /// @param now_s any clock that only runs forward. One whose stamp goes back by a second or more begins anew.

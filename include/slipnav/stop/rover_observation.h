@@ -10,7 +10,7 @@ struct RoverObservation {
   double forward_mps = 0.0;     ///< over ground, mean over the last wheel interval
   double speed_std_mps = 0.0;   ///< 1σ of the velocity, root of the mean variance of its axes
   bool stationary = false;      ///< the filter takes the rover to stand still
-  bool zero_update = false;     ///< and has just accepted a zero update
+  bool has_wheels = false;      ///< a wheel interval ended in its step; at standstill, a zero update was accepted
   bool wheels_at_rest = false;  ///< no wheel turned in the last wheel interval; false when wheels are not known
 };
 
