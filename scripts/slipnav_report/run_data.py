@@ -40,21 +40,25 @@ class RunData:
         self.truth = {name: column[covered] for name, column in self.truth.items()}
 
     def stops(self):
-        """Standstills as (begin, end, east, north); those of the first and last epoch are no stops."""
+        """Standstills as (begin, end, east, north)."""
         line = self.timeline
-        edges = np.flatnonzero(np.diff((line["stationary"] > 0.5).astype(int)))
-        if line["stationary"][0] > 0.5:
-            edges = edges[1:]
-        found = []
-        for begin, end in zip(edges[0::2] + 1, edges[1::2] + 1):
-            if line["t"][end] - line["t"][begin] >= STANDSTILL_GAP_S:
-                found.append((line["t"][begin], line["t"][end], line["est_e"][begin], line["est_n"][begin]))
-        return found
+        return [(line["t"][begin], line["t"][end], line["est_e"][begin], line["est_n"][begin])
+                for begin, end in standstills(line)]
 
     def errors(self):
         """East, north and up error at each epoch of the timeline; NaN without truth."""
         line = self.timeline
         return np.stack([line["est_" + axis] - line["truth_" + axis] for axis in "enu"])
+
+
+def standstills(timeline):
+    """Rows (begin, end) of each standstill, end being the first that is none; those of the first and last epoch are no
+    stops."""
+    edges = np.flatnonzero(np.diff((timeline["stationary"] > 0.5).astype(int))) + 1
+    if timeline["stationary"][0] > 0.5:
+        edges = edges[1:]
+    return [(begin, end) for begin, end in zip(edges[0::2], edges[1::2])
+            if timeline["t"][end] - timeline["t"][begin] >= STANDSTILL_GAP_S]
 
 
 def read_table(path):

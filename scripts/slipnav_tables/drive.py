@@ -1,0 +1,124 @@
+"""One simulated drive: what to simulate, and what is read from the files that it leaves."""
+
+import csv
+import json
+import os
+from dataclasses import asdict, dataclass
+from typing import List, Optional, Tuple
+
+import numpy as np
+
+from slipnav_report.run_data import standstills
+
+from .paper import AUTONOMOUS
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Drives that are equal are driven once, whoever asks for them."""
+
+    terrain: str
+    distance_m: float
+    seed: int
+    policy: str
+    threshold_m: Optional[float] = None
+    settings: Tuple[str, ...] = ()  # BLOCK.KEY=VALUE
+    probe_after_stop_s: Optional[float] = None  # read the forecast that is made so long after the first stop
+
+    def __str__(self):
+        threshold = "" if self.threshold_m is None else f" ε {self.threshold_m:g} m"
+        return f"{self.terrain} {self.distance_m:g} m {self.policy}{threshold} seed {self.seed}"
+
+    def arguments(self, directory):
+        """For the executable `simulate`."""
+        listed = ["--terrain", self.terrain, "--distance", f"{self.distance_m:g}", "--seed", str(self.seed),
+                  "--policy", self.policy, "--out", directory]
+        if self.threshold_m is not None:
+            listed += ["--threshold", f"{self.threshold_m:g}"]
+        for setting in self.settings:
+            listed += ["--set", setting]
+        return listed
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Driving from the end of one stop to the begin of the next, or to the end of the drive."""
+
+    duration_s: float
+    growth_m: float  # largest horizontal length of the change of the error since its begin
+    ended_by_stop: bool
+
+
+@dataclass(frozen=True)
+class Outcome:
+    metrics: dict
+    stretches: List[Stretch]  # of autonomous drives
+    time_to_stop_s: Optional[float]  # what the probed forecast says; infinite beyond its horizon
+
+    def as_json(self):
+        time_to_stop_s = self.time_to_stop_s
+        return {"metrics": self.metrics, "stretches": [asdict(stretch) for stretch in self.stretches],
+                "time_to_stop_s": "beyond the horizon" if time_to_stop_s == np.inf else time_to_stop_s}
+
+
+def read_outcome(drive, directory):
+    """Raises OSError, ValueError or KeyError when the files are not there or not what they should be."""
+    with open(os.path.join(directory, "metrics.json"), encoding="utf-8") as file:
+        metrics = json.load(file)
+    stretches, time_to_stop_s = [], None
+    if drive.policy == AUTONOMOUS or drive.probe_after_stop_s is not None:
+        timeline = read_columns(os.path.join(directory, "timeline.csv"),
+                                ("t", "est_e", "est_n", "truth_e", "truth_n", "stationary"))
+        if drive.policy == AUTONOMOUS:
+            stretches = driving_stretches(timeline)
+        if drive.probe_after_stop_s is not None:
+            forecasts = read_columns(os.path.join(directory, "forecasts.csv"), ("t", "time_to_stop_s"))
+            time_to_stop_s = probed_time_to_stop(timeline, forecasts, drive.probe_after_stop_s)
+    return Outcome(metrics, stretches, time_to_stop_s)
+
+
+def read_columns(path, names):
+    """Some columns of a table; the rest is not converted, which is most of the time that reading takes."""
+    with open(path, newline="", encoding="ascii") as file:
+        reader = csv.reader(file)
+        heads = next(reader, [])
+        places = [heads.index(name) for name in names]
+        rows = [[row[place] for place in places] for row in reader]
+    return dict(zip(names, np.array(rows, dtype=float).reshape(len(rows), len(names)).T))
+
+
+def driving_stretches(timeline):
+    """From the first stop on: what comes before it has no stop to be counted from."""
+    time = timeline["t"]
+    error = np.stack([timeline["est_" + axis] - timeline["truth_" + axis] for axis in "en"])
+    stops = standstills(timeline)
+    rest = np.flatnonzero(timeline["stationary"] < 0.5)
+    end_of_drive = rest[-1] if len(rest) else 0  # the rest at the end is not driving
+    stretches = []
+    for i, (_, begin) in enumerate(stops):
+        ended_by_stop = i + 1 < len(stops)
+        end = stops[i + 1][0] if ended_by_stop else end_of_drive
+        stretches.append(Stretch(float(time[end] - time[begin]), growth(error[:, begin:end + 1]), ended_by_stop))
+    return stretches
+
+
+def growth(error):
+    """Largest change of the error [m] since the first epoch that truth covers."""
+    known = error[:, np.isfinite(error).all(axis=0)]
+    if not known.size:
+        raise ValueError("no truth between two stops")
+    return float(np.hypot(*(known - known[:, :1])).max())
+
+
+def probed_time_to_stop(timeline, forecasts, after_s):
+    """What the first forecast says that is made at least so long after the end of the first stop."""
+    stops = standstills(timeline)
+    if not stops:
+        raise ValueError("the rover did not stop")
+    released = timeline["t"][stops[0][1]]
+    until = timeline["t"][stops[1][0]] if len(stops) > 1 else timeline["t"][-1]
+    made = np.flatnonzero((forecasts["t"] >= released + after_s) & (forecasts["t"] < until))
+    if not len(made):
+        raise ValueError(f"no forecast was made {after_s:g} s after the first stop and before the next")
+    time_to_stop_s = float(forecasts["time_to_stop_s"][made[0]])
+    return np.inf if np.isnan(time_to_stop_s) else time_to_stop_s

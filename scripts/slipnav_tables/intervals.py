@@ -1,0 +1,146 @@
+"""The figure of stop intervals by ground, with analysis of variance and Tukey's test."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+from slipnav_report import palette
+from slipnav_report.page import png_of
+
+from . import paper
+from .drive import Drive
+from .section import Figure, Section, Table, number, succeeded
+from .statistics import anova_p, median, p_text, tukey_p
+
+# A drive that stops once in time to forecast after it; 15 s of driving are 12 m.
+FORECAST_POLICY = "periodic:40:3"
+FORECAST_DISTANCE_M = 60.0
+HORIZON_S = 300.0  # far enough that few forecasts stay below the threshold up to it
+DRIVE_DISTANCE_M = 300.0
+BOX_COLOURS = (palette.SAFE, palette.STOP, palette.TRUTH, palette.ERROR)
+
+
+def forecast_drives(terrain, options):
+    return [Drive(terrain, FORECAST_DISTANCE_M, seed, FORECAST_POLICY, options.interval_threshold_m,
+                  (f"forecast.horizon_s={HORIZON_S:g}",), paper.COLLECTION_S)
+            for seed in range(1, options.interval_tests + 1)]
+
+
+def real_drives(terrain, options):
+    return [Drive(terrain, DRIVE_DISTANCE_M, seed, paper.AUTONOMOUS, options.interval_threshold_m)
+            for seed in range(1, options.interval_tests + 1)]
+
+
+def forecast_interval(outcome):
+    """Seconds, and whether they are only known to be more."""
+    return min(outcome.time_to_stop_s, HORIZON_S), outcome.time_to_stop_s == np.inf
+
+
+def real_interval(outcome):
+    """The median interval of a drive; where no interval is complete, the longest drive without a stop."""
+    complete = [stretch.duration_s for stretch in outcome.stretches if stretch.ended_by_stop]
+    if complete:
+        return median(complete), False
+    unfinished = [stretch.duration_s for stretch in outcome.stretches]
+    return max(unfinished + ([] if outcome.metrics["stop_count"] else [outcome.metrics["duration_s"]])), True
+
+
+KINDS = (
+    ("forecast", "Time to the stop as forecast, 15 s after a stop", forecast_drives, forecast_interval),
+    ("real", "Real time between stops, median of each drive", real_drives, real_interval),
+)
+
+
+def kind_data(outcomes, options, drives_of, interval_of):
+    data = {}
+    for terrain in paper.TERRAINS:
+        found = [interval_of(outcome) for outcome in succeeded(outcomes, drives_of(terrain, options))]
+        data[terrain] = {"intervals_s": [value for value, _ in found], "at_least": sum(more for _, more in found)}
+    return data
+
+
+def tests_of(data):
+    """ANOVA's and Tukey's p values; None where they cannot be told."""
+    groups = {terrain: data[terrain]["intervals_s"] for terrain in paper.TERRAINS}
+    return {"anova_p": anova_p(list(groups.values())), "tukey_p": tukey_p(groups)}
+
+
+def interval_table(kinds):
+    rows = []
+    for name, title, _, _ in KINDS:
+        for terrain in paper.TERRAINS:
+            values = kinds[name][terrain]["intervals_s"]
+            quartiles = np.percentile(values, (25, 50, 75, 0, 100)) if values else [None] * 5
+            rows.append([title, terrain, str(len(values))] + [number(value, 1) for value in quartiles]
+                        + [str(kinds[name][terrain]["at_least"])])
+    return Table(["seconds", "ground", "drives", "lower quartile", "median", "upper quartile", "least", "most",
+                  "no stop seen"], rows)
+
+
+def significance_table(tests):
+    heads = ["p", "paper"] + [title for _, title, _, _ in KINDS]
+    rows = [["ANOVA", "-"] + [p_text(tests[name]["anova_p"]) for name, _, _, _ in KINDS]]
+    for pair, paper_p in paper.TUKEY_P.items():
+        label = "/".join(terrain[0].upper() for terrain in pair)
+        rows.append([label, paper_p] + [p_text(tests[name]["tukey_p"][pair]) for name, _, _, _ in KINDS])
+    return Table(heads, rows, "One-way analysis of variance, and Tukey's test of each pair of grounds")
+
+
+def order_text(data):
+    medians = {terrain: median(data[terrain]["intervals_s"]) for terrain in paper.TERRAINS}
+    known = [terrain for terrain in paper.TERRAINS if medians[terrain] is not None]
+    return " > ".join(sorted(known, key=lambda terrain: -medians[terrain]))
+
+
+def draw_boxes(axes, data, title):
+    boxes = axes.boxplot([data[terrain]["intervals_s"] for terrain in paper.TERRAINS], patch_artist=True, widths=0.6,
+                         whis=(0, 100), medianprops={"color": palette.TEXT, "lw": 2})
+    for place, (terrain, box, colour) in enumerate(zip(paper.TERRAINS, boxes["boxes"], BOX_COLOURS), 1):
+        box.set(facecolor=colour, alpha=0.6)
+        values = data[terrain]["intervals_s"]
+        axes.plot(place + np.linspace(-0.2, 0.2, len(values)), values, ".", color=palette.TEXT, ms=3)
+    axes.set_xticklabels(paper.TERRAINS)
+    axes.set_ylim(bottom=0.0)
+    axes.set_ylabel("ΔTime [s]")
+    axes.set_title(title, fontsize=10)
+    axes.grid(axis="y", alpha=0.3)
+
+
+def draw(kinds):
+    figure, all_axes = plt.subplots(1, len(KINDS), figsize=(11, 5))
+    for axes, (name, title, _, _) in zip(all_axes, KINDS):
+        draw_boxes(axes, kinds[name], title)
+    return figure
+
+
+def notes_of(kinds, options):
+    notes = [
+        f"ε = {options.interval_threshold_m:g} m, which the paper does not say for its figure. Boxes: quartiles and "
+        "median; whiskers: least and most; points: the drives.",
+        f"Forecast: {FORECAST_POLICY} over {FORECAST_DISTANCE_M:g} m, the forecast {paper.COLLECTION_S:g} s after the "
+        f"first stop, looking {HORIZON_S:g} s ahead. Real: autonomous over {DRIVE_DISTANCE_M:g} m. `no stop seen`: "
+        "drives that say only how long there was none, and count with that.",
+    ]
+    for name, title, _, _ in KINDS:
+        notes.append(f"{title}, order of the medians: {order_text(kinds[name])}; the paper: "
+                     "paved > unpaved > gravel ≥ rough.")
+    return notes
+
+
+class Intervals:
+    NAME = "intervals"
+
+    @staticmethod
+    def drives(options):
+        return [drive for terrain in paper.TERRAINS for _, _, drives_of, _ in KINDS
+                for drive in drives_of(terrain, options)]
+
+    @staticmethod
+    def section(outcomes, options):
+        kinds = {name: kind_data(outcomes, options, drives_of, interval_of)
+                 for name, _, drives_of, interval_of in KINDS}
+        tests = {name: tests_of(kinds[name]) for name in kinds}
+        data = {name: {"terrains": kinds[name], "anova_p": tests[name]["anova_p"],
+                       "tukey_p": {"/".join(pair): p for pair, p in tests[name]["tukey_p"].items()}} for name in kinds}
+        figure = Figure("stop_intervals", "Stop intervals by ground", png_of(draw(kinds)))
+        return Section("Stop intervals", [interval_table(kinds), significance_table(tests)], notes_of(kinds, options),
+                       [figure], data)
