@@ -100,7 +100,7 @@ def draw(data):
         axes.set_xscale("symlog", linthresh=1.0)
         axes.set_xticks(RATE_TICKS_PCT)
         axes.set_xticklabels([f"{tick:g}" for tick in RATE_TICKS_PCT])
-        axes.set_xlim(-0.1, RATE_TICKS_PCT[-1] * 1.2)
+        axes.set_xlim(-0.1, RATE_TICKS_PCT[-1] * 1.5)  # room for the last label
         axes.set_ylim(bottom=0.0)
         axes.set_title(f"{terrain}, {DISTANCE_M:.0f} m")
         axes.set_xlabel("time at standstill for stops [%]")

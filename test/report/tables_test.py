@@ -146,10 +146,11 @@ class ReadingTest(unittest.TestCase):
 
     def test_probe_takes_the_first_forecast_that_is_late_enough(self):
         line = timeline([0, 1, 1, 0, 0, 0, 0, 1, 1, 0], np.zeros(10))
-        made = {"t": np.array([12.0, 14.0, 15.0, 15.0, 16.0]), "time_to_stop_s": np.array([1.0, 2.0, 3.0, 3.0, np.nan])}
+        made = {"t": np.array([12.0, 14.0, 15.0, 15.0, 16.0, 17.0]),
+                "time_to_stop_s": np.array([1.0, 2.0, 3.0, 3.0, np.nan, 4.0])}
         self.assertEqual(drive.probed_time_to_stop(line, made, 1.5), 3.0)
         self.assertEqual(drive.probed_time_to_stop(line, made, 3.0), np.inf)
-        for after_s in (3.5, 5.0):  # no forecast, or one after the next stop
+        for after_s in (3.5, 5.0):  # one that is made at the next stop, or none
             with self.assertRaisesRegex(ValueError, "no forecast was made"):
                 drive.probed_time_to_stop(line, made, after_s)
 
@@ -171,10 +172,11 @@ class CurveTest(unittest.TestCase):
         point = curve.AUTONOMOUS_POINTS[0]
         drives = curve.drives_of("rough", point, options)
         threshold = point[2]
-        stretches = [drive.Stretch(10.0, threshold + 0.1, True), drive.Stretch(10.0, threshold - 0.1, False)]
+        stretches = [drive.Stretch(10.0, threshold + 0.1, True), drive.Stretch(10.0, threshold - 0.1, True),
+                     drive.Stretch(10.0, 0.1, False)]
         outcomes = dict(zip(drives, (outcome(2.0, 0.4, stretches), outcome(4.0, 0.6))))
         data = curve.point_data(outcomes, "rough", point, options)
-        self.assertEqual((data["stretches"], data["stretches_beyond_threshold"]), (2, 1))
+        self.assertEqual((data["stretches"], data["stretches_beyond_threshold"]), (3, 1))
         self.assertEqual((data["stop_rate_pct"], data["enu_error_pct"]), (3.0, {"median": 0.5, "worst": 0.6}))
 
     def test_periodic_error_at_a_stop_rate(self):
