@@ -1,6 +1,7 @@
 # Shared by run and the scripts beside this file; to be sourced with ROOT set to the top folder of the project.
 
-BUILD="$ROOT/build"
+# Another build folder: SLIPNAV_BUILD.
+BUILD="${SLIPNAV_BUILD:-$ROOT/build}"
 LOGS="$BUILD/log"
 
 # The system's python3 has catkin and rospy; another one that comes first in PATH has neither.
@@ -60,3 +61,6 @@ enter_ros() {
 ensure_built() { "$ROOT/scripts/build"; }
 
 enter_workspace() { source_setup "$BUILD/devel/setup.bash"; }
+
+# A port that nobody listens on: what is started here must not get into the way of a master that runs already.
+free_port() { python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'; }

@@ -42,12 +42,14 @@ void Config::visit(ParameterVisitor& v) {
   v.group("truth", truth, "how truth is laid over the estimate");
   v.list("wheels", wheels, "driven wheels, in the order of slip messages");
   v.group("wheel", wheel, "what the wheels' speeds are worth");
+  v.group("wheel_monitor", wheel_monitor, "when a wheel is taken for broken");
   v.group("vehicle", vehicle, "how vehicle and ground behave between measurements");
   v.group("nonholonomic", nonholonomic, "what it is worth that the rover moves along its wheels");
   v.group("zero_motion", zero_motion, "what standstill is worth");
   v.group("stationary", stationary, "when the rover counts as standing still");
   v.group("filter", filter, "error-state Kalman filter");
   v.group("initialization", initialization, "how the start is found");
+  v.group("checkpoint", checkpoint, "going on after a crash");
   v.group("forecast", forecast, "how slip and position error are forecast");
   v.group("overlay", overlay, "what rviz shows of a drive");
   v.group("stop", stop, "when the rover stops for a zero update, and how");
@@ -65,6 +67,8 @@ NavigationSetup Config::navigation() const {
   setup.filter.nonholonomic = nonholonomic;
   setup.filter.zero = zero_motion;
   setup.filter.stationary = stationary;
+  setup.filter.wheel_monitor = wheel_monitor;
+  setup.filter.wheels = wheels;
   setup.filter.lever_imu_to_reference_b = -imu.mount.position_b();
   setup.filter.lever_imu_to_antenna_b = gps_mount.position_b() - imu.mount.position_b();
   return setup;

@@ -29,6 +29,12 @@ void subtractError(const ErrorVector& error, VehicleState& state) {
   state.mount_yaw_rad -= error(kMountYaw);
 }
 
+void forgetError(int index, double variance, ErrorCovariance& P) {
+  P.row(index).setZero();
+  P.col(index).setZero();
+  P(index, index) = variance;
+}
+
 Vector3 positionDifference(const Planet& planet, const Geodetic& estimate, const Geodetic& truth) {
   const double latitude_rad = truth.latitude_rad;
   const double north_m = planet.meridianRadius(latitude_rad) + truth.height_m;

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include "slipnav/math/rotation.h"
 
 namespace slipnav {
 namespace {
@@ -36,6 +39,9 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
       dynamics_(planet, setup.imu, setup.vehicle),
       detector_(setup.stationary),
       update_(setup.filter),
+      unseen_motion_(planet, setup.filter),
+      wheel_monitor_(setup.wheel_monitor, setup.wheels),
+      cadence_(setup.filter.max_wheel_interval_s),
       tremor_(setup.zero),
       slip_ground_(setup.filter.ground),
       side_slip_ground_(setup.filter.ground),
@@ -49,7 +55,7 @@ void FilterEngine::reset() {
   steps_.clear();
   wheels_.clear();
   fixes_.clear();
-  newest_wheels_ = 0;
+  complete_until_ = 0;
 }
 
 void FilterEngine::initialise(const InitialState& initial) {
@@ -63,22 +69,30 @@ void FilterEngine::initialise(const InitialState& initial) {
   detector_.reset();
   update_ = GatedUpdate(setup_.filter);
   tremor_ = Tremor(setup_.zero);
+  wheel_monitor_.reset();
+  unseen_motion_.reset();
   slip_ground_ = GroundFactor(setup_.filter.ground);
   side_slip_ground_ = GroundFactor(setup_.filter.ground);
   if (initial.tremor_variance > 0.0) {
     tremor_.setVariance(initial.tremor_variance);
   }
   average_.restart(0);
+  cadence_.restart(initial.nav.stamp);
   vertical_average_.restart(0);
   recent_wheel_speed_mps_ = 0.0;
   slipping_until_ = 0;
   steps_.clear();
   // A wheel interval that began before the initial state is not known in full and goes unused.
   while (!wheels_.empty() && wheels_.front().stamp <= initial.nav.stamp) {
-    average_.restart(wheels_.front().stamp == initial.nav.stamp ? initial.nav.stamp : 0);
+    beginWheels(wheels_.front(), initial.nav.stamp);
     wheels_.pop_front();
   }
   dropUpTo(initial.nav.stamp, fixes_);
+}
+
+/// A wheel sample with the very stamp of the initial state begins the first interval.
+void FilterEngine::beginWheels(const WheelMotion& wheels, Nanoseconds start) {
+  average_.restart(wheels.stamp == start ? start : 0);
 }
 
 void FilterEngine::push(const InsStep& step) {
@@ -90,6 +104,10 @@ void FilterEngine::push(const InsStep& step) {
 
 bool FilterEngine::push(const WheelMotion& wheels) {
   const bool finite = std::isfinite(wheels.motion.forward_mps) && std::isfinite(wheels.motion.yaw_rate_radps);
+  if (finite && initialised_ && next_sequence_ == 0 && wheels.stamp == state_.stamp) {
+    beginWheels(wheels, state_.stamp);
+    return true;
+  }
   if (!finite || (initialised_ && wheels.stamp <= state_.stamp)) {
     return false;
   }
@@ -102,11 +120,50 @@ bool FilterEngine::push(const WheelMotion& wheels) {
     wheels_.pop_front();
   }
   wheels_.insertSorted(wheels, earlier<WheelMotion>);
-  newest_wheels_ = std::max(newest_wheels_, wheels.stamp);
   return true;
 }
 
-void FilterEngine::assumeCompleteUpTo(Nanoseconds stamp) { newest_wheels_ = std::max(newest_wheels_, stamp); }
+void FilterEngine::assumeCompleteUpTo(Nanoseconds stamp) { complete_until_ = std::max(complete_until_, stamp); }
+
+Correction FilterEngine::place(const Placement& placement) {
+  const Geodetic& position = placement.position;
+  const bool possible = std::isfinite(position.longitude_rad) && std::isfinite(position.height_m) &&
+                        std::abs(position.latitude_rad) < 0.5 * kPi && placement.position_std_m > 0.0 &&
+                        std::isfinite(placement.heading_rad.value_or(0.0)) &&
+                        (!placement.heading_rad || placement.heading_std_rad > 0.0);
+  if (!possible) {
+    throw std::invalid_argument("the place is not one on this planet, or a standard deviation is not above 0");
+  }
+  if (!initialised_ || next_sequence_ == 0) {
+    throw std::invalid_argument("there is no estimate yet");
+  }
+  state_.position = position;
+  for (int axis = 0; axis < 3; ++axis) {
+    forgetError(kPosition + axis, square(placement.position_std_m), P_);
+  }
+  if (placement.heading_rad) {
+    turnTo(*placement.heading_rad, placement.heading_std_rad);
+  }
+  steps_.clear();
+  return Correction{next_sequence_ - 1, ++epoch_, state_};
+}
+
+/// Turns the whole state about the vertical; the velocity goes along, and is as uncertain as its new direction.
+void FilterEngine::turnTo(double heading_rad, double heading_std_rad) {
+  const Quaternion turn(Eigen::AngleAxisd(heading_rad - eulerFrom_q_b_to_n(state_.q_b_to_n).z(), Vector3::UnitZ()));
+  state_.q_b_to_n = (turn * state_.q_b_to_n).normalized();
+  state_.v_eb_n = turn * state_.v_eb_n;
+  forgetError(kAttitude + 2, square(heading_std_rad), P_);
+  P_.diagonal().segment<2>(kVelocity).array() += square(heading_std_rad) * state_.v_eb_n.head<2>().squaredNorm();
+}
+
+Nanoseconds FilterEngine::wheelsKnownUntil() const {
+  Nanoseconds known = cadence_.newest();
+  for (std::size_t i = 0; i < wheels_.size() && !cadence_.isHole(known, wheels_[i].stamp); ++i) {
+    known = wheels_[i].stamp;
+  }
+  return std::max(known, complete_until_);
+}
 
 bool FilterEngine::push(const PositionFix& fix) {
   const bool finite = std::isfinite(fix.position.latitude_rad) && std::isfinite(fix.position.longitude_rad) &&
@@ -119,7 +176,7 @@ bool FilterEngine::push(const PositionFix& fix) {
 }
 
 bool FilterEngine::isCertain(const InsStep& step) const {
-  if (setup_.filter.updates.empty() || newest_wheels_ >= step.state.stamp) {
+  if (setup_.filter.updates.empty() || wheelsKnownUntil() >= step.state.stamp) {
     return true;
   }
   return toSeconds(steps_.back().state.stamp - step.state.stamp) >= setup_.filter.max_wait_s;
@@ -156,12 +213,15 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   transition_.noise(kSideSlip) *= side_slip_ground_.variance();
   ErrorDynamics::propagate(transition_, P_);
   ErrorDynamics::decay(transition_, vehicle_);
-  if (step.gap_s > 0.0) {
-    inflateForGap(step.gap_s);
-  }
   detector_.addImu(step.state.stamp, step.f_ib_b, step.omega_ib_b);
   state_ = step.state;
-  return 0.5 * (v_start_b + referenceVelocity(step));
+  if (step.gap_s > 0.0) {
+    unseen_motion_.begin(state_, step.gap_s, P_);
+    forgetSlipImpulse();
+  }
+  unseen_motion_.settle(state_, P_);
+  const Vector3 v_end_b = referenceVelocity(step);
+  return step.gap_s > 0.0 ? v_end_b : 0.5 * (v_start_b + v_end_b);  // nothing is known of the way through a gap
 }
 
 Vector3 FilterEngine::referenceVelocity(const InsStep& step) const {
@@ -169,12 +229,12 @@ Vector3 FilterEngine::referenceVelocity(const InsStep& step) const {
   return bodyVelocity(state_, step.omega_ib_b - omega_ie_b, setup_.lever_imu_to_reference_b);
 }
 
-void FilterEngine::inflateForGap(double gap_s) {
-  const double turn = degToRad(setup_.filter.gap_rate_std_deg_per_s) * gap_s;
-  const double speed = setup_.filter.gap_accel_std_mps2 * gap_s;
-  P_.diagonal().segment<3>(kAttitude).array() += square(turn);
-  P_.diagonal().segment<3>(kVelocity).array() += square(speed);
-  P_.diagonal().segment<3>(kPosition).array() += square(0.5 * speed * gap_s);
+/// What was known of a slip impulse is void after a gap: were it kept, the wheels could say nothing about the speed,
+/// and the tilt, unknown now, would turn into speed before it is seen.
+void FilterEngine::forgetSlipImpulse() {
+  forgetError(kFastSlip, dynamics_.priorVariance()(kFastSlip), P_);
+  vehicle_.fast_slip = 0.0;
+  slipping_until_ = 0;
 }
 
 bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
@@ -190,12 +250,16 @@ bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
     addMotion(step, v_mean_b, wheels.stamp);
     const std::optional<BodyMotion> motion = average_.mean();
     detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
-    if (average_.start() != 0 && interval_s <= setup_.filter.max_wheel_interval_s && motion) {
+    // Of several in one step, as in a gap of the IMU, the last one counts: what they are compared with does not follow
+    // from one correction to the next.
+    const bool is_last = wheels_.empty() || wheels_.front().stamp > step.state.stamp;
+    if (is_last && average_.start() != 0 && interval_s <= setup_.filter.max_wheel_interval_s && motion) {
       corrected = applyWheelSample(wheels, *motion) || corrected;
     } else {
       vertical_average_.restart(wheels.stamp);
     }
     average_.restart(wheels.stamp);
+    cadence_.add(wheels.stamp);
     recent_wheel_speed_mps_ += kRecentSpeedGain * (wheels.motion.forward_mps - recent_wheel_speed_mps_);
   }
   addMotion(step, corrected ? referenceVelocity(step) : v_mean_b, step.state.stamp);
@@ -218,6 +282,9 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   estimate_.has_wheels = true;
   estimate_.wheels = wheels;
   estimate_.motion = motion;
+  if (wheels.count > 1 && wheels.count == wheel_monitor_.count()) {
+    wheel_monitor_.add(wheels.stamp, wheels.circumferential_mps, motion.omega_ib_b.z());
+  }
   const double gravity_mps2 = planet_.gravity_n(state_.position).norm();
   const bool at_rest = detector_.isStationary(gravity_mps2);
   if (at_rest && use_zupt_) {
@@ -248,24 +315,37 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   return corrected;
 }
 
+/// The wheels' motion without those that contradict the others.
+PlanarMotion FilterEngine::soundMotion(const WheelMotion& wheels) const {
+  PlanarMotion motion = wheels.motion;
+  if (wheel_monitor_.faultyCount() > 0) {
+    motion.forward_mps = wheel_monitor_.soundSpeed();
+    motion.has_yaw_rate = false;
+  }
+  return motion;
+}
+
 MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const {
   const Vector3& lever_b = setup_.lever_imu_to_reference_b;
+  const PlanarMotion wheel_motion = soundMotion(wheels);
   MeasurementSet set;
   if (use_wheel_) {
-    if (wheels.stamp > slipping_until_) {
+    if (wheels.stamp > slipping_until_ && wheel_monitor_.isUsable()) {
       const double slip_variance = P_.block<3, 3>(kWheelScale, kWheelScale).sum();
       set.add(kForwardSpeed,
-              forwardSpeedMeasurement(setup_.wheel, wheels.motion.forward_mps, recent_wheel_speed_mps_, motion, state_,
+              forwardSpeedMeasurement(setup_.wheel, wheel_motion.forward_mps, recent_wheel_speed_mps_, motion, state_,
                                       vehicle_, slip_variance, slip_ground_.variance(), lever_b));
     }
-    if (wheels.motion.has_yaw_rate) {
-      set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheels.motion.yaw_rate_radps, motion));
+    if (wheel_motion.has_yaw_rate) {
+      set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheel_motion.yaw_rate_radps, motion));
     }
   }
   if (use_nonholonomic_) {
     const Measurement lateral =
         lateralMeasurement(setup_.nonholonomic, motion, state_, vehicle_, side_slip_ground_.variance(), lever_b);
-    if (!isExcessiveSideSlip(setup_.nonholonomic, motion, vehicle_, lateral.variance(0))) {
+    // Sideways speed that the filter itself is not sure of, as after a gap of the IMU, is no side slip.
+    const double uncertainty = lateral.variance(0) + (lateral.H * P_ * lateral.H.transpose())(0, 0);
+    if (!isExcessiveSideSlip(setup_.nonholonomic, motion, vehicle_, uncertainty)) {
       set.add(kLateral, lateral);
     }
     if (verticalMeanIsDue()) {

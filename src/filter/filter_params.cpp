@@ -20,6 +20,8 @@ void FilterParams::visit(ParameterVisitor& v) {
            "1σ of the mean angular rate in a gap of the IMU [°/s]");
   v.number("gap_accel_std_mps2", gap_accel_std_mps2, {0.0, 100.0},
            "1σ of the mean acceleration in a gap of the IMU [m/s²]");
+  v.number("gap_max_tilt_deg", gap_max_tilt_deg, {0.0, 90.0},
+           "1σ of what the ground can do to roll and pitch in a gap of whatever length [°]");
   v.group("ground", ground, "how slip parameters are scaled down on better ground");
 }
 

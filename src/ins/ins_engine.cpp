@@ -11,7 +11,11 @@ constexpr std::size_t kLargestRing = 1U << 18U;  // four minutes at 1 kHz, while
 }  // namespace
 
 InsEngine::InsEngine(const Planet& planet, const ImuInputParams& params)
-    : strapdown_(planet), screen_(params), instantaneous_(params.sampling == "instantaneous"), ring_(kInitialRing) {}
+    : strapdown_(planet),
+      screen_(params),
+      instantaneous_(params.sampling == "instantaneous"),
+      max_bridged_gap_s_(params.max_bridged_gap_s),
+      ring_(kInitialRing) {}
 
 void InsEngine::reset() {
   first_ = next_ = end_ = base_ = 0;
@@ -26,6 +30,13 @@ void InsEngine::initialise(const NavigationState& state) {
   epoch_ = 0;
   initial_ = state;
   initialised_ = true;
+}
+
+ImuInterval InsEngine::unchanging(const NavigationState& state, double duration_s) const {
+  const Planet& planet = strapdown_.planet();
+  const Quaternion q_n_to_b = state.q_b_to_n.conjugate();
+  return {state.accel_bias_b - q_n_to_b * planet.gravity_n(state.position),
+          state.gyro_bias_b + q_n_to_b * planet.omega_ie_n(state.position.latitude_rad), duration_s};
 }
 
 void InsEngine::dropUpTo(Nanoseconds stamp) {
@@ -83,6 +94,9 @@ std::optional<InsStep> InsEngine::step() {
   ImuInterval interval = current.interval;
   if (is_first) {  // the initial state may lie inside the interval of the sample that follows it
     interval.duration_s = toSeconds(current.end - start.stamp);
+  }
+  if (current.gap_s > max_bridged_gap_s_) {
+    interval = unchanging(start, interval.duration_s);
   }
   const ImuInterval previous = is_first ? ImuInterval{} : slot(next_ - 1).interval;
   current.state = strapdown_.propagate(start, previous, interval, current.end);

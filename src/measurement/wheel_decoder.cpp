@@ -11,7 +11,8 @@ std::optional<WheelSample> WheelDecoder::decode(const JointArrays& joints) {
     return std::nullopt;
   }
   if (!joints.velocity_radps.empty()) {
-    return pick(joints, joints.velocity_radps, "velocity");
+    const std::optional<WheelSample> rates = pick(joints, joints.velocity_radps, "velocity");
+    return rates ? possible(*rates, "turns too fast") : std::nullopt;
   }
   return fromPositions(joints);
 }
@@ -74,6 +75,17 @@ std::optional<WheelSample> WheelDecoder::fromPositions(const JointArrays& joints
   WheelSample rates = *angles;
   for (std::size_t i = 0; i < rates.count; ++i) {
     rates.rate_radps[i] = (angles->rate_radps[i] - before->rate_radps[i]) / toSeconds(angles->stamp - before->stamp);
+  }
+  return possible(rates, "has jumped");
+}
+
+std::optional<WheelSample> WheelDecoder::possible(const WheelSample& rates, const char* what) {
+  for (std::size_t i = 0; i < rates.count; ++i) {
+    if (wheels_[i].radius_m * std::abs(rates.rate_radps[i]) > max_speed_mps_) {
+      problem_ = "says that " + (wheels_[i].name.empty() ? "wheel " + std::to_string(i) : "'" + wheels_[i].name + "'") +
+                 " " + what;
+      return std::nullopt;
+    }
   }
   return rates;
 }

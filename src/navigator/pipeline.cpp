@@ -9,18 +9,22 @@ Pipeline::Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEng
       setup_(setup),
       sink_(std::move(sink)),
       initializer_(planet, setup.initialization, setup.imu_input, setup.filter),
-      navigator_(planet, setup.imu_input, setup.filter) {}
+      navigator_(planet, setup.imu_input, setup.filter),
+      health_(setup.filter) {}
 
 void Pipeline::restart() {
   initializer_.reset();
   navigator_ = Navigator(planet_, setup_.imu_input, setup_.filter);
   initial_.reset();
+  health_.restart();
   ++counts_.restarts;
 }
 
 void Pipeline::push(const ImuSample& sample) {
   ++counts_.imu;
   ImuVerdict verdict = navigator_.push(sample, sink_);
+  health_.noteImu(sample.stamp, verdict);
+  health_.noteFilter(navigator_.filter());
   if (verdict == ImuVerdict::kTimeWentBack) {
     restart();
     verdict = navigator_.push(sample, sink_);
@@ -38,7 +42,9 @@ void Pipeline::push(const ImuSample& sample) {
 
 void Pipeline::push(const WheelMotion& wheels) {
   ++counts_.wheels;
-  if (!navigator_.push(wheels, sink_)) {
+  const bool taken = navigator_.push(wheels, sink_);
+  health_.noteWheels(wheels.stamp, taken);
+  if (!taken) {
     ++counts_.rejected;
     return;
   }

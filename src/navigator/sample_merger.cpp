@@ -1,20 +1,46 @@
 #include "slipnav/navigator/sample_merger.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "slipnav/ins/imu_screen.h"
 
 namespace slipnav {
+namespace {
+
+constexpr std::size_t kMaxWaiting = 100000;  // while the IMU is silent
+
+}  // namespace
 
 void SampleMerger::push(const Sample& sample) {
+  std::visit(
+      [this](const auto& s) {
+        using Kind = std::decay_t<decltype(s)>;
+        std::get<JumpFilter<Kind>>(filters_).push(s, [this](const Kind& passed) { insert(passed); });
+      },
+      sample);
+}
+
+void SampleMerger::insert(const Sample& sample) {
+  const bool is_imu = std::holds_alternative<ImuSample>(sample);
   Stream& stream = streams_[sample.index()];
   Instant instant{stream.newest.session, stampOf(sample)};
   if (instant.stamp <= stream.newest.stamp - kRestartBackstep) {
-    ++instant.session;
+    stream.newest = {instant.session + 1, instant.stamp};
+    instant = stream.newest;
   }
-  stream.waiting.push_back({instant, sample});
   stream.newest = std::max(stream.newest, instant);
-  newest_ = std::max(newest_, instant);
+  if (is_imu) {
+    stream.waiting.push_back({instant, sample});
+    newest_imu_ = stream.newest;
+    return;
+  }
+  const auto later = [](const Instant& before, const Entry& entry) { return before < entry.instant; };
+  stream.waiting.insert(std::upper_bound(stream.waiting.begin(), stream.waiting.end(), instant, later),
+                        {instant, sample});
+  if (stream.waiting.size() > kMaxWaiting) {
+    stream.waiting.pop_front();
+  }
 }
 
 SampleMerger::Stream* SampleMerger::earliest() {
@@ -29,17 +55,13 @@ SampleMerger::Stream* SampleMerger::earliest() {
   return first;
 }
 
-bool SampleMerger::isCertain(const Entry& entry, const Instant& trusted) const {
-  const bool silence_counts =
-      trusted.session > entry.instant.session ||
-      (trusted.session == entry.instant.session && trusted.stamp - entry.instant.stamp >= max_wait_);
-  return silence_counts || std::none_of(streams_.begin(), streams_.end(), [&entry](const Stream& stream) {
-           return stream.waiting.empty() && stream.newest < entry.instant;
-         });
+bool SampleMerger::isCertain(const Instant& instant, const Instant& trusted) const {
+  return trusted.session > instant.session ||
+         (trusted.session == instant.session && trusted.stamp - instant.stamp >= max_wait_);
 }
 
 void SampleMerger::advance(const Instant& trusted, const Sink& sink) {
-  for (Stream* stream = earliest(); stream != nullptr && isCertain(stream->waiting.front(), trusted);
+  for (Stream* stream = earliest(); stream != nullptr && isCertain(stream->waiting.front().instant, trusted);
        stream = earliest()) {
     const Sample sample = stream->waiting.front().sample;
     stream->waiting.pop_front();
@@ -53,6 +75,10 @@ void SampleMerger::flush(const Sink& sink) {
     stream->waiting.pop_front();
     sink(sample);
   }
+}
+
+std::uint64_t SampleMerger::leftOut() const {
+  return std::apply([](const auto&... filter) { return (filter.leftOut() + ...); }, filters_);
 }
 
 }  // namespace slipnav

@@ -1,10 +1,14 @@
 /// slipnav/Filter: the error-state Kalman filter.
 ///
-/// In: ins_steps, initial_state, joint_states or wheel_odometry. Out: correction, odometry, nav_state, slip, TF.
+/// In: ins_steps, initial_state, joint_states or wheel_odometry, slip_forecast (for checkpoints). Out: correction,
+/// odometry, nav_state, slip, TF. Services: save_checkpoint, set_state.
 
 #include <slipnav/FilterCorrection.h>
 #include <slipnav/InsSteps.h>
+#include <slipnav/SetState.h>
+#include <slipnav/SlipForecast.h>
 #include <slipnav/StartState.h>
+#include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <boost/make_shared.hpp>
@@ -13,9 +17,13 @@
 #include <vector>
 
 #include "slipnav/filter/filter_engine.h"
+#include "slipnav/navigator/health.h"
+#include "slipnav/navigator/jump_filter.h"
+#include "slipnav/ros/checkpoint_keeper.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
 #include "slipnav/ros/estimate_publisher.h"
+#include "slipnav/ros/health_report.h"
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/look_ahead.h"
@@ -30,6 +38,8 @@ class FilterNodelet : public CoreNodelet {
   void begin(const Config& config) override {
     engine_.emplace(Planet::byName(config.planet), config.navigation().filter);
     wheel_input_.emplace(config);
+    checkpoints_.emplace(config.checkpoint);
+    health_.emplace(config.navigation().filter);
     const bool uses_wheels = !config.filter.updates.empty();
     gate_ = StepGate(uses_wheels ? std::optional<double>(config.filter.max_wait_s) : std::nullopt);
     look_ahead_ = LookAhead(config.filter.max_wait_s);
@@ -41,6 +51,9 @@ class FilterNodelet : public CoreNodelet {
     listen<StartState>(kInitialStateTopic, &FilterNodelet::onInitialState);
     listen<sensor_msgs::JointState>(config.topics.joint_states, &FilterNodelet::onWheels<sensor_msgs::JointState>);
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &FilterNodelet::onWheels<nav_msgs::Odometry>);
+    listen<SlipForecast>(config.topics.slip_forecast, &FilterNodelet::onSlipForecast);
+    serve("save_checkpoint", &FilterNodelet::saveCheckpoint);
+    serve("set_state", &FilterNodelet::setState);
   }
 
   void advertise(const Config& config) override {
@@ -49,19 +62,25 @@ class FilterNodelet : public CoreNodelet {
   }
 
   void onInitialState(const StartState::ConstPtr& message) {
-    if (started_ && message->session <= session_) {
+    if (message->start <= start_) {
+      return;
+    }
+    start_ = message->start;
+    if (!message->known) {
+      end();
       return;
     }
     started_ = true;
-    session_ = message->session;
     const InitialState initial = fromMessage(*message);
-    gate_.clear();
+    gate_.restart();
+    health_->restart();
     look_ahead_.restart(initial.nav.stamp);
     engine_->reset();
     for (const WheelMotion& wheels : wheel_sessions_.startNext()) {
       useWheels(wheels);
     }
     engine_->initialise(initial);
+    checkpoints_->start(initial.origin, message->session);
     estimates_->start(initial.origin, lever_imu_to_base_b_, engine_->dynamics().gyroNoiseDensity());
     const std::vector<InsSteps::ConstPtr> early = std::move(early_steps_);
     early_steps_.clear();
@@ -70,12 +89,19 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
+  /// The estimate ends; a new start is looked for.
+  void end() {
+    started_ = false;
+    engine_->reset();
+    wheel_sessions_.pause();
+  }
+
   void onSteps(const InsSteps::ConstPtr& message) {
-    if (!started_ || message->session > session_) {  // overtook its initial state
+    if (message->start > start_) {  // overtook its initial state
       early_steps_.push_back(message);
       return;
     }
-    if (message->session != session_) {
+    if (!started_ || message->start != start_) {
       return;
     }
     const double now_s = now();
@@ -96,15 +122,19 @@ class FilterNodelet : public CoreNodelet {
                             wheel_input_->problem().c_str());
     }
     if (motion) {
-      for (const WheelMotion& wheels : wheel_sessions_.push(*motion)) {
-        useWheels(wheels);
-      }
+      jumps_.push(*motion, [this](const WheelMotion& passed) {
+        for (const WheelMotion& wheels : wheel_sessions_.push(passed)) {
+          useWheels(wheels);
+        }
+      });
       proceed();
     }
   }
 
   void useWheels(const WheelMotion& wheels) {
-    if (engine_->push(wheels)) {
+    const bool taken = engine_->push(wheels);
+    health_->noteWheels(wheels.stamp, taken);
+    if (taken) {
       look_ahead_.addWheels(wheels.stamp);
     } else {
       ++rejected_;
@@ -118,24 +148,30 @@ class FilterNodelet : public CoreNodelet {
     if (!started_) {
       return;
     }
-    gate_.release(wheel_sessions_.newestStamp(), now(), [this](const InsStep& step) { engine_->push(step); });
+    gate_.release(engine_->wheelsKnownUntil(), now(), [this](const InsStep& step) { engine_->push(step); });
     const std::optional<Correction> correction =
         engine_->advance([this](const Estimate& estimate, const ErrorCovariance& P) {
           look_ahead_.processed(estimate.nav.stamp);
+          checkpoints_->offer(*engine_);
           estimates_->publish(estimate, P);
         });
+    health_->noteFilter(*engine_);
     if (correction) {
-      gate_.clear();
-      look_ahead_.forgetSteps();
+      takeCorrection(*correction);
+    } else if (look_ahead_.isStalled()) {
+      tell(std::nullopt);
     }
-    if (correction || look_ahead_.isStalled()) {
-      tell(correction);
-    }
+  }
+
+  void takeCorrection(const Correction& correction) {
+    gate_.clear();
+    look_ahead_.forgetSteps();
+    tell(correction);
   }
 
   void tell(const std::optional<Correction>& correction) {
     const auto message = boost::make_shared<FilterCorrection>();
-    message->session = session_;
+    message->start = start_;
     if (correction) {
       fill(*correction, *message);
     }
@@ -143,6 +179,19 @@ class FilterNodelet : public CoreNodelet {
     look_ahead_.told(look_ahead_.runUntil());
     correction_publisher_.publish(FilterCorrection::ConstPtr(message));
   }
+
+  void onSlipForecast(const SlipForecast::ConstPtr& message) {
+    checkpoints_->setSlipHyperparameters({message->variance, message->length_scale_s, message->noise_variance});
+  }
+
+  void setState(const SetState::Request& request, SetState::Response&) {
+    if (!started_) {
+      throw std::invalid_argument("there is no estimate yet");
+    }
+    takeCorrection(engine_->place(toPlacement(request, estimates_->frame(), engine_->state(), lever_imu_to_base_b_)));
+  }
+
+  void saveCheckpoint(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response&) { checkpoints_->save(*engine_); }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
@@ -152,9 +201,12 @@ class FilterNodelet : public CoreNodelet {
                                          : "no wheel samples");
     status.add("wheel messages", wheel_messages_);
     status.add("rejected wheel messages", rejected_);
+    status.add("wheel messages with a wrong stamp", jumps_.leftOut());
     if (!engine_) {
       return;
     }
+    checkpoints_->diagnose(status);
+    report(*health_, engine_->state().stamp, status);
     for (int i = 0; i < kComponents; ++i) {
       const ComponentStatus& component = engine_->status(static_cast<Component>(i));
       const std::string name = componentName(static_cast<Component>(i));
@@ -166,14 +218,17 @@ class FilterNodelet : public CoreNodelet {
 
   std::optional<FilterEngine> engine_;
   std::optional<WheelInput> wheel_input_;
+  std::optional<CheckpointKeeper> checkpoints_;
+  std::optional<HealthMonitor> health_;
   std::unique_ptr<EstimatePublisher> estimates_;
   Vector3 lever_imu_to_base_b_ = Vector3::Zero();
   StepGate gate_{std::nullopt};
   LookAhead look_ahead_{0.0};
+  JumpFilter<WheelMotion> jumps_;
   WheelSessions wheel_sessions_;
   std::vector<InsSteps::ConstPtr> early_steps_;
   bool started_ = false;
-  std::uint32_t session_ = 0;
+  std::uint32_t start_ = 0;  ///< count of the initial state in use
   std::uint64_t wheel_messages_ = 0;
   std::uint64_t rejected_ = 0;
   ros::Publisher correction_publisher_;

@@ -1,10 +1,12 @@
 /// slipnav/Initializer: finds where to start.
 ///
 /// In: imu/data, joint_states or wheel_odometry, gps/fix. Out, latched: initial_state, initialization, TF map → odom.
+/// Services: initialise, reset.
 
 #include <sensor_msgs/Imu.h>
 #include <slipnav/Initialization.h>
 #include <slipnav/StartState.h>
+#include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -13,8 +15,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "slipnav/config/text.h"
 #include "slipnav/math/rotation.h"
 #include "slipnav/navigator/initializer.h"
+#include "slipnav/navigator/resumption.h"
 #include "slipnav/navigator/sample_merger.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
@@ -37,6 +41,10 @@ class InitializerNodelet : public CoreNodelet {
     wheel_input_.emplace(config);
     screen_.emplace(setup.imu_input);
     merger_.emplace(config.filter.max_wait_s);
+    resumption_.emplace(Planet::byName(config.planet), config.checkpoint, setup.filter);
+    for (const std::string& refused : resumption_->refused()) {
+      NODELET_WARN("%s", refused.c_str());
+    }
     initializer_.emplace(Planet::byName(config.planet), setup.initialization, setup.imu_input, setup.filter);
   }
 
@@ -45,6 +53,8 @@ class InitializerNodelet : public CoreNodelet {
     listen<sensor_msgs::JointState>(config.topics.joint_states, &InitializerNodelet::onWheels<sensor_msgs::JointState>);
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &InitializerNodelet::onWheels<nav_msgs::Odometry>);
     listen<sensor_msgs::NavSatFix>(config.topics.gps_fix, &InitializerNodelet::onFix);
+    serve("initialise", &InitializerNodelet::initialise);
+    serve("reset", &InitializerNodelet::reset);
   }
 
   void advertise(const Config&) override {
@@ -53,10 +63,24 @@ class InitializerNodelet : public CoreNodelet {
   }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
-    const ImuSample sample = toImuSample(*message, *mount_);
-    trusted_.push(sample.stamp, now());
-    merger_->push(sample);
+    merger_->push(toImuSample(*message, *mount_));
+    trusted_.push(merger_->newestImuStamp(), now());
+    resume(merger_->newestImuStamp());
     proceed();
+  }
+
+  /// Goes on from a checkpoint, if there is one that is good for it.
+  void resume(Nanoseconds stamp) {
+    if (done_ || stamp == 0 || !resumption_->isPossible()) {
+      return;
+    }
+    try {
+      const InitialState initial = resumption_->resume(stamp);
+      done_ = true;
+      announce(initial, "resumed " + formatNumber(resumption_->unwatched()) + " s after the checkpoint");
+    } catch (const std::invalid_argument& error) {
+      NODELET_WARN("a new start: %s", error.what());
+    }
   }
 
   template <class Message>
@@ -89,6 +113,7 @@ class InitializerNodelet : public CoreNodelet {
     if (verdict == ImuVerdict::kTimeWentBack) {
       screen_->reset();
       initializer_->reset();
+      resumption_->forget();
       ++session_;
       done_ = false;
       verdict = screen_->check(sample).verdict;
@@ -108,12 +133,35 @@ class InitializerNodelet : public CoreNodelet {
     initializer_->push(sample);
     if (const std::optional<InitialState> initial = initializer_->result()) {
       done_ = true;
-      announce(*initial);
+      announce(*initial, "done");
     }
   }
 
-  void announce(const InitialState& initial) {
+  /// Ends the estimate and looks for a start anew.
+  void searchAnew() {
+    initializer_->reset();
+    done_ = false;
     const auto message = boost::make_shared<StartState>();
+    message->start = ++starts_;
+    message->session = session_;
+    start_publisher_.publish(StartState::ConstPtr(message));
+    reportProgress();
+  }
+
+  void initialise(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    searchAnew();
+    response.message = progress_;
+  }
+
+  void reset(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    resumption_->deleteFiles();
+    searchAnew();
+    response.message = progress_;
+  }
+
+  void announce(const InitialState& initial, const std::string& how) {
+    const auto message = boost::make_shared<StartState>();
+    message->start = ++starts_;
     message->session = session_;
     fill(initial, *message);
     start_publisher_.publish(StartState::ConstPtr(message));
@@ -124,24 +172,24 @@ class InitializerNodelet : public CoreNodelet {
     map_to_odom.child_frame_id = frames_.odom;
     map_to_odom.transform.rotation.w = 1.0;
     tf_.sendTransform(map_to_odom);
-    reportEnd(initial);
+    reportEnd(initial, how);
   }
 
-  void reportEnd(const InitialState& initial) {
+  void reportEnd(const InitialState& initial, const std::string& how) {
     const auto report = boost::make_shared<Initialization>();
     report->header.stamp = toRosTime(initial.nav.stamp);
     report->header.frame_id = frames_.map;
     report->done = true;
-    report->progress = progress_ = "done";
+    report->progress = progress_ = how;
     report->latitude_deg = radToDeg(initial.origin.latitude_rad);
     report->longitude_deg = radToDeg(initial.origin.longitude_rad);
     report->height_m = initial.origin.height_m;
     report->heading_deg = radToDeg(eulerFrom_q_b_to_n(initial.nav.q_b_to_n).z());
     report->heading_std_deg = radToDeg(std::sqrt(initial.P(kAttitude + 2, kAttitude + 2)));
     progress_publisher_.publish(Initialization::ConstPtr(report));
-    NODELET_INFO("initialisation done at %.3f s: %.7f deg, %.7f deg, %.2f m, heading %.2f deg (1 sigma %.2f deg)",
-                 report->header.stamp.toSec(), report->latitude_deg, report->longitude_deg, report->height_m,
-                 report->heading_deg, report->heading_std_deg);
+    NODELET_INFO("initialisation at %.3f s: %s; origin %.7f deg, %.7f deg, %.2f m, heading %.2f deg (1 sigma %.2f deg)",
+                 report->header.stamp.toSec(), how.c_str(), report->latitude_deg, report->longitude_deg,
+                 report->height_m, report->heading_deg, report->heading_std_deg);
   }
 
   void reportProgress() {
@@ -160,7 +208,9 @@ class InitializerNodelet : public CoreNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(done_ ? DiagnosticStatus::OK : DiagnosticStatus::WARN, progress_);
-    status.add("restarts", session_);
+    status.add("restarts of the clock", session_);
+    status.add("starts", starts_);
+    status.add("samples with a wrong stamp", merger_ ? merger_->leftOut() : 0);
   }
 
   FrameNames frames_;
@@ -169,8 +219,10 @@ class InitializerNodelet : public CoreNodelet {
   std::optional<ImuScreen> screen_;
   std::optional<SampleMerger> merger_;
   std::optional<Initializer> initializer_;
+  std::optional<Resumption> resumption_;
   TrustedStamp trusted_;
   std::uint32_t session_ = 0;  ///< restarts of the IMU's clock
+  std::uint32_t starts_ = 0;   ///< initial states announced, and searches begun anew
   bool done_ = false;
   std::string progress_;
   tf2_ros::StaticTransformBroadcaster tf_;

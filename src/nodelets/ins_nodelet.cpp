@@ -12,8 +12,11 @@
 #include <optional>
 
 #include "slipnav/ins/ins_engine.h"
+#include "slipnav/navigator/health.h"
+#include "slipnav/navigator/jump_filter.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/health_report.h"
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/internal_topics.h"
 
@@ -24,6 +27,7 @@ class InsNodelet : public CoreNodelet {
   void begin(const Config& config) override {
     mount_.emplace(config.imu.mount);
     engine_.emplace(Planet::byName(config.planet), config.imu.input);
+    health_.emplace(config.navigation().filter);
   }
 
   void subscribe(const Config& config) override {
@@ -35,10 +39,16 @@ class InsNodelet : public CoreNodelet {
   void advertise(const Config&) override { steps_publisher_ = publisher<InsSteps>(kInsStepsTopic); }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
-    const ImuSample sample = toImuSample(*message, *mount_);
+    jumps_.push(toImuSample(*message, *mount_), [this](const ImuSample& sample) { use(sample); });
+    startIfDue();
+    mechanise();
+  }
+
+  void use(const ImuSample& sample) {
     ImuVerdict verdict = engine_->push(sample);
+    health_->noteImu(sample.stamp, verdict);
     if (verdict == ImuVerdict::kTimeWentBack) {
-      NODELET_WARN("the clock of %s went back: starting anew", message->header.frame_id.c_str());
+      NODELET_WARN("the clock of the IMU went back: starting anew");
       engine_->reset();
       ++session_;
       verdict = engine_->push(sample);
@@ -47,15 +57,15 @@ class InsNodelet : public CoreNodelet {
     gaps_ += verdict == ImuVerdict::kAfterGap ? 1 : 0;
     if (!isAccepted(verdict)) {
       ++rejected_;
-      NODELET_WARN_THROTTLE(1.0, "IMU sample at %.3f s left out: %s", message->header.stamp.toSec(),
-                            complaintOf(verdict));
+      NODELET_WARN_THROTTLE(1.0, "IMU sample at %.3f s left out: %s", toSeconds(sample.stamp), complaintOf(verdict));
     }
-    startIfDue();
-    mechanise();
   }
 
   void onInitialState(const StartState::ConstPtr& message) {
-    start_ = message;
+    start_ = message->known ? message : StartState::ConstPtr();
+    if (!message->known && message->session == session_) {
+      engine_->release();
+    }
     startIfDue();
     mechanise();
   }
@@ -67,13 +77,14 @@ class InsNodelet : public CoreNodelet {
       return;
     }
     engine_->initialise(fromMessage(start_->state));
+    start_count_ = start_->start;
     last_step_ = toNanoseconds(start_->state.stamp);
     run_until_ = last_step_ + 1;
     start_.reset();
   }
 
   void onCorrection(const FilterCorrection::ConstPtr& message) {
-    if (message->session != session_ || !engine_->isInitialised()) {
+    if (message->start != start_count_ || !engine_->isInitialised()) {
       return;
     }
     if (message->corrects) {
@@ -101,7 +112,7 @@ class InsNodelet : public CoreNodelet {
       batch->steps.push_back(toMessage(*step));
     }
     if (!batch->steps.empty()) {
-      batch->session = session_;
+      batch->start = start_count_;
       steps_publisher_.publish(boost::shared_ptr<const InsSteps>(batch));
     }
   }
@@ -119,17 +130,24 @@ class InsNodelet : public CoreNodelet {
     status.addf("IMU rate [Hz]", "%.1f", rate_hz);
     status.add("gaps", gaps_);
     status.add("rejected samples", rejected_);
+    status.add("samples with a wrong stamp", jumps_.leftOut());
     status.add("restarts", session_);
+    if (health_) {
+      report(*health_, engine_->newestStamp(), status);
+    }
     diagnosed_samples_ = samples_;
     diagnosed_stamp_ = engine_ ? engine_->newestStamp() : 0;
   }
 
   std::optional<ImuMount> mount_;
+  JumpFilter<ImuSample> jumps_;
   std::optional<InsEngine> engine_;
-  StartState::ConstPtr start_;  ///< not yet used
-  std::uint32_t session_ = 0;   ///< restarts of the IMU's clock
-  Nanoseconds last_step_ = 0;   ///< end of the newest step
-  Nanoseconds run_until_ = 0;   ///< what the filter has use for
+  std::optional<HealthMonitor> health_;
+  StartState::ConstPtr start_;     ///< not yet used
+  std::uint32_t session_ = 0;      ///< restarts of the IMU's clock
+  std::uint32_t start_count_ = 0;  ///< of the initial state in use
+  Nanoseconds last_step_ = 0;      ///< end of the newest step
+  Nanoseconds run_until_ = 0;      ///< what the filter has use for
   std::uint64_t samples_ = 0;
   std::uint64_t gaps_ = 0;
   std::uint64_t rejected_ = 0;

@@ -3,11 +3,13 @@
 #include <chrono>
 #include <ctime>
 #include <stdexcept>
+#include <utility>
 
 #include "slipnav/eval/offline_run.h"
 #include "slipnav/eval/rtklib_pos.h"
 #include "slipnav/navigator/sample_merger.h"
 #include "slipnav/ros/child_process.h"
+#include "slipnav/ros/conversions.h"
 
 namespace slipnav {
 namespace {
@@ -29,13 +31,18 @@ class Stopwatch {
 };
 
 /// Feeds a recording to a run in the order of the stamps.
-void feed(const BagReader& reader, bool with_truth, OfflineRun& run, std::map<std::string, int>& problems) {
+void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluation& evaluation) {
+  HealthMonitor health(reader.config().navigation().filter);  // of what does not reach the pipeline
   SampleMerger merger(reader.config().filter.max_wait_s);
   const SampleMerger::Sink pass = [&run](const Sample& sample) {
     std::visit([&run](const auto& s) { run.push(s); }, sample);
   };
-  const auto take = [&merger, &pass](const Sample& sample) {
+  const auto take = [&merger, &pass, &health](const Sample& sample) {
+    const std::uint64_t left_out = merger.leftOut();
     merger.push(sample);
+    if (merger.leftOut() > left_out) {
+      health.note("wrong stamp", merger.newestImuStamp());
+    }
     merger.advance(pass);
   };
   BagSink sink;
@@ -53,9 +60,14 @@ void feed(const BagReader& reader, bool with_truth, OfflineRun& run, std::map<st
       run.addTruthPose(pose);
     }
   };
-  sink.problem = [&problems](const std::string& problem) { ++problems[problem]; };
+  sink.problem = [&evaluation, &health, &merger](const std::string& problem) {
+    ++evaluation.problems[problem];
+    health.note(problem, merger.newestImuStamp());
+  };
   reader.read(sink);
   merger.flush(pass);
+  evaluation.alarms = run.pipeline().health().alarms();
+  evaluation.alarms.insert(health.alarms().begin(), health.alarms().end());
 }
 
 }  // namespace
@@ -65,14 +77,19 @@ BagEvaluation evaluateBag(const std::string& path, const Config& config, const s
   const Stopwatch stopwatch;
   const bool truth_from_file = isRtklibFile(truth);
   const BagReader reader(path, config, truth_from_file ? "" : truth, range);
+  BagEvaluation evaluation;
   OfflineRun run(reader.config(), true);
+  run.onOutput([&evaluation, &reader](const Output& output) {
+    nav_msgs::Odometry message;
+    fill(output, reader.config().frames, message);
+    evaluation.odometry.add(std::move(message));
+  });
   if (truth_from_file) {
     for (const RtklibSolution& solution : readRtklibPos(truth)) {
       run.addTruthFix(solution.fix);
     }
   }
-  BagEvaluation evaluation;
-  feed(reader, !truth_from_file, run, evaluation.problems);
+  feed(reader, !truth_from_file, run, evaluation);
   evaluation.report = run.finish(config.truth.alignment(truth_from_file || reader.truthIsGeodetic()));
   evaluation.report.metrics.cpu_s = stopwatch.cpu();
   evaluation.report.metrics.realtime_factor = reader.duration() / stopwatch.wall();

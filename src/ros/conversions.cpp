@@ -3,6 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "slipnav/math/rotation.h"
+
 namespace slipnav {
 namespace {
 
@@ -146,6 +148,21 @@ NavigationState toNavigationState(const nav_msgs::Odometry& message, const Local
   const Vector3 omega_b = swapFrdFlu(toVector(message.twist.twist.angular));
   state.v_eb_n = C_b_to_n * (swapFrdFlu(toVector(message.twist.twist.linear)) + omega_b.cross(imu_position_b));
   return state;
+}
+
+Placement toPlacement(const SetStateRequest& request, const LocalFrame& map, const NavigationState& present,
+                      const Vector3& lever_imu_to_base_b) {
+  Placement placement;
+  placement.position_std_m = request.position_std_m;
+  Vector3 euler = eulerFrom_q_b_to_n(present.q_b_to_n);
+  if (request.has_heading != 0) {
+    placement.heading_rad = euler.z() = degToRad(request.heading_deg);
+    placement.heading_std_rad = degToRad(request.heading_std_deg);
+  }
+  const Quaternion q_b_to_n = q_b_to_n_fromEuler(euler.x(), euler.y(), euler.z());
+  const Vector3 lever_enu = map.C_n_to_enu(present.position) * (q_b_to_n * lever_imu_to_base_b);
+  placement.position = map.toGeodetic(toVector(request.position) - lever_enu);
+  return placement;
 }
 
 void fill(const Output& output, const FrameNames& frames, nav_msgs::Odometry& message) {

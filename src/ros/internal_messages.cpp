@@ -78,6 +78,7 @@ InsStep fromMessage(const InsInterval& message, std::uint32_t epoch) {
 void fill(const InitialState& initial, StartState& message) {
   const auto& [nav, vehicle, P, origin, tremor_variance] = initial;
   const auto& [wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad] = vehicle;
+  message.known = true;
   message.state = toMessage(nav);
   message.vehicle = {wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad};
   Eigen::Map<RowMajorCovariance>(message.covariance.data()) = P;

@@ -19,13 +19,28 @@ Nanoseconds TrustedStamp::at(double now_s) {
   return trusted_;
 }
 
-void StepGate::release(Nanoseconds newest_wheels, double now_s, const std::function<void(const InsStep&)>& sink) {
-  const auto may_go = [this, newest_wheels, now_s](const Held& held) {
-    return !max_wait_s_ || held.step.state.stamp < newest_wheels + fromSeconds(*max_wait_s_) ||
-           now_s - held.time_s >= kPatience_s;
+void StepGate::restart() {
+  held_.clear();
+  newest_ = 0;
+  trusted_ = TrustedStamp();
+}
+
+void StepGate::push(const InsStep& step, double now_s) {
+  held_.push_back(step);
+  if (step.state.stamp > newest_) {
+    newest_ = step.state.stamp;
+    trusted_.push(newest_, now_s);
+  }
+}
+
+void StepGate::release(Nanoseconds wheels_known_until, double now_s, const std::function<void(const InsStep&)>& sink) {
+  const Nanoseconds trusted = trusted_.at(now_s);
+  const auto may_go = [this, wheels_known_until, trusted](const InsStep& step) {
+    const Nanoseconds end = step.state.stamp;
+    return !max_wait_s_ || end < wheels_known_until + fromSeconds(*max_wait_s_) || end <= trusted;
   };
   while (!held_.empty() && may_go(held_.front())) {
-    sink(held_.front().step);
+    sink(held_.front());
     held_.pop_front();
   }
 }

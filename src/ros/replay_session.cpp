@@ -68,7 +68,10 @@ ReplaySession::ReplaySession(const TopicNames& topics) {
     subscribers_.push_back(node_.subscribe(topic, 0, handler, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   };
   listen(topics.odometry, boost::function<void(const nav_msgs::Odometry::ConstPtr&)>(
-                              [this](const nav_msgs::Odometry::ConstPtr& message) { recorder_.add(*message); }));
+                              [this](const nav_msgs::Odometry::ConstPtr& message) {
+                                recorder_.add(*message);
+                                odometry_.add(*message);
+                              }));
   listen(topics.nav_state, boost::function<void(const NavState::ConstPtr&)>(
                                [this](const NavState::ConstPtr& message) { recorder_.add(*message); }));
   listen(topics.slip, boost::function<void(const Slip::ConstPtr&)>(

@@ -8,7 +8,7 @@ namespace slipnav {
 
 WheelInput::WheelInput(const Config& config)
     : geometry_(config.wheelGeometry()),
-      decoder_(config.wheels),
+      decoder_(config.wheels, config.wheel_monitor.max_speed_mps),
       source_(config.wheel.source),
       stamp_delay_(fromSeconds(config.wheel.stamp_delay_s)),
       joint_topic_(config.topics.joint_states),

@@ -18,6 +18,7 @@ CommandLine commandLine() {
               "truth: a topic of the recording or an RTKLIB solution; default: the first of "
               "truth/fix, truth/odometry, truth/pose that it has")
       .option("out", "DIR", "where metrics.json, timeline.csv, forecasts.csv, estimate.tum, truth.tum go")
+      .option("odometry", "FILE", "every message of `odometry` as bytes, to compare runs with")
       .flag("report", "plots into the same place");
   slipnav::declareConfigOptions(command_line);
   return command_line;
@@ -45,6 +46,9 @@ int run(int argc, char** argv) {
   }
   if (arguments.given("out")) {
     slipnav::writeRunReport(arguments.text("out"), evaluation.report);
+  }
+  if (arguments.given("odometry")) {
+    evaluation.odometry.write(arguments.text("odometry"));
   }
   if (arguments.given("report")) {
     slipnav::plotReport(arguments.text("out"));

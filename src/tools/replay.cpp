@@ -26,6 +26,7 @@ CommandLine commandLine() {
       .option("duration", "S", "seconds to play, 0 for all", "0")
       .option("truth", "TOPIC|FILE.pos", "truth: a topic of the recording or an RTKLIB solution")
       .option("out", "DIR", "where metrics.json and the other results go")
+      .option("odometry", "FILE", "every message of `odometry` as bytes, to compare runs with")
       .option("tree", "NAME", "parameter tree of the configuration", "slipnav")
       .flag("report", "plots into the same place");
   return command_line;
@@ -68,6 +69,9 @@ int run(int argc, char** argv) {
   }
   if (arguments.given("out") && arguments.given("report")) {
     slipnav::plotReport(arguments.text("out"));
+  }
+  if (arguments.given("odometry")) {
+    session.odometry().write(arguments.text("odometry"));
   }
   std::cout << slipnav::comparisonText("replay", report.estimates, offline.report.estimates) << slipnav::tableHeader()
             << slipnav::tableRow(slipnav::runName(options.bag), std::nullopt, report.metrics) << std::flush;

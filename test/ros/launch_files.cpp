@@ -21,6 +21,10 @@ int roslaunchStatus(const std::vector<std::string>& arguments) {
 TEST(LaunchFiles, AreUnderstood) {
   EXPECT_EQ(roslaunchStatus({"nodelets.launch"}), 0);
   EXPECT_EQ(roslaunchStatus({"rover.launch", "namespace:=/rover", "rviz:=true"}), 0);
+  EXPECT_EQ(
+      roslaunchStatus({"rover.launch", "config:=pathfinder", "topics:=imu/data=imu joint_states=wheels",
+                       "frames:=base=rover imu=imu0", "extrinsics:=tf", "stop_mode:=active", "checkpoint:=/tmp/state"}),
+      0);
   EXPECT_EQ(roslaunchStatus({"replay.launch", "bag:=drive.bag", "config:=default,husky_mocap", "out:=somewhere",
                              "report:=true", "truth:=truth/fix", "options:=--set planet=mars"}),
             0);
@@ -33,6 +37,8 @@ TEST(LaunchFiles, AWrongConfigurationIsAnError) {
   EXPECT_NE(roslaunchStatus({"nodelets.launch", "config:=nonsense"}), 0);
   EXPECT_NE(roslaunchStatus({"nodelets.launch", "options:=--set planet=pluto"}), 0);
   EXPECT_NE(roslaunchStatus({"simulate.launch", "terrain:=sea"}), 0);
+  EXPECT_NE(roslaunchStatus({"rover.launch", "topics:=imu/dota=imu"}), 0);
+  EXPECT_NE(roslaunchStatus({"rover.launch", "stop_mode:=sometimes"}), 0);
 }
 
 }  // namespace

@@ -43,6 +43,17 @@ TEST(StepGate, LetsStepsGoAfterTheSilenceHasLasted) {
   EXPECT_EQ(released(gate, 0, 5.0 + 1.1 * kPatience_s).size(), 1U);
 }
 
+TEST(StepGate, StepsThatComeAgainNeedNotWaitAgain) {
+  StepGate gate(1.0);
+  gate.push(stepTo(10 * kSecond), 5.0);
+  gate.clear();
+  gate.push(stepTo(10 * kSecond), 5.0 + 1.1 * kPatience_s);
+  EXPECT_EQ(released(gate, 0, 5.0 + 1.1 * kPatience_s).size(), 1U);
+  gate.restart();
+  gate.push(stepTo(10 * kSecond), 6.0);
+  EXPECT_TRUE(released(gate, 0, 6.0).empty());
+}
+
 TEST(StepGate, HoldsNothingWhereWheelsAreNotUsed) {
   StepGate gate(std::nullopt);
   gate.push(stepTo(10 * kSecond), 0.0);
@@ -99,10 +110,8 @@ WheelMotion wheelsAt(Nanoseconds stamp) {
 TEST(WheelSessions, KeepsSamplesUntilTheInitialStateComes) {
   WheelSessions sessions;
   EXPECT_TRUE(sessions.push(wheelsAt(10 * kSecond)).empty());
-  EXPECT_EQ(sessions.newestStamp(), 0);
   EXPECT_EQ(sessions.startNext().size(), 1U);
   EXPECT_EQ(sessions.push(wheelsAt(11 * kSecond)).size(), 1U);
-  EXPECT_EQ(sessions.newestStamp(), 11 * kSecond);
 }
 
 TEST(WheelSessions, AfterARestartSamplesWaitForTheNextInitialState) {
@@ -120,9 +129,7 @@ TEST(WheelSessions, LateSamplesOfTheSessionBeforeAreLeftOut) {
   sessions.push(wheelsAt(100 * kSecond));
   EXPECT_TRUE(sessions.startNext().empty());  // the clock of the others went back already
   EXPECT_TRUE(sessions.push(wheelsAt(101 * kSecond)).empty());
-  EXPECT_EQ(sessions.newestStamp(), 0);
   EXPECT_EQ(sessions.push(wheelsAt(1 * kSecond)).size(), 1U);
-  EXPECT_EQ(sessions.newestStamp(), 1 * kSecond);
 }
 
 NavigationState someState() {

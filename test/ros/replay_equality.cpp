@@ -36,8 +36,11 @@ TEST_F(ReplayEquality, AtTwentyTimesRealTime) {
   const BagEvaluation offline = replayAndCompare(bag_->path(), 20.0);
   EXPECT_TRUE(offline.problems.empty());
   EXPECT_LT(offline.report.metrics.horizontal_max_m.value(), 1.0);
-  const std::map<std::string, bool> everyone = {
-      {"filter: /filter", true}, {"initializer: /initializer", true}, {"ins: /ins", true}};
+  const std::map<std::string, bool> everyone = {{"filter: /filter", true},
+                                                {"forecast: /forecast", true},
+                                                {"initializer: /initializer", true},
+                                                {"ins: /ins", true},
+                                                {"stop_supervisor: /stop_supervisor", true}};
   for (int i = 0; i < 50 && well != everyone; ++i) {  // they come once a second
     ros::spinOnce();
     ros::WallDuration(0.1).sleep();

@@ -49,6 +49,7 @@ class ReplayFixture : public ::testing::Test {
     session_->play({path, rate, 0.0, 0.0});
     session_->waitForEstimate(offline.report.estimates.back().stamp);
     expectEqual(session_->recorder().track(), offline.report.estimates);
+    EXPECT_EQ(session_->odometry().bytes(), offline.odometry.bytes());
     return offline;
   }
 

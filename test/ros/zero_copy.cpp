@@ -47,6 +47,7 @@ class ZeroCopy : public ::testing::Test {
 TEST_F(ZeroCopy, InsKeepsTheInitialStateThatItWaitsWith) {
   load("/ins", "slipnav/Ins");
   const auto state = boost::make_shared<StartState>();
+  state->known = true;
   state->state.stamp = ros::Time(100.0);  // no sample has come so far
   expectHeld(kInitialStateTopic, state);
 }
@@ -54,6 +55,7 @@ TEST_F(ZeroCopy, InsKeepsTheInitialStateThatItWaitsWith) {
 TEST_F(ZeroCopy, FilterKeepsTheStepsThatOvertookTheirInitialState) {
   load("/filter", "slipnav/Filter");
   const auto steps = boost::make_shared<InsSteps>();
+  steps->start = 1;
   steps->steps.resize(1);
   expectHeld(kInsStepsTopic, steps);
 }

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
+#include <vector>
 
 namespace slipnav::test {
 namespace {
@@ -61,6 +63,42 @@ TEST(ImuScreen, BadNumbersAreRefusedAndLeaveNoTrace) {
   EXPECT_EQ(screen.check(sample).verdict, ImuVerdict::kOutOfRange);
   EXPECT_EQ(screen.newestStamp(), kStart);
   EXPECT_EQ(screen.check(sampleAt(0.02)).verdict, ImuVerdict::kAccepted);
+}
+
+/// Samples with noise on all axes but one, which has the same value from the first on.
+std::vector<ImuVerdict> verdictsWithStuckGyro(int samples, ImuScreen& screen) {
+  std::vector<ImuVerdict> verdicts;
+  for (int i = 1; i <= samples; ++i) {
+    ImuSample sample = sampleAt(0.02 * i);
+    sample.omega_ib_b = {1e-5 * (i % 7), 0.125, -1e-5 * (i % 5)};
+    verdicts.push_back(screen.check(sample).verdict);
+  }
+  return verdicts;
+}
+
+TEST(ImuScreen, AStuckAxisIsRefusedUntilItMoves) {
+  ImuScreen screen(params());
+  const std::vector<ImuVerdict> verdicts = verdictsWithStuckGyro(params().stuck_samples + 5, screen);
+  EXPECT_EQ(std::count(verdicts.begin(), verdicts.end(), ImuVerdict::kStuck), 5);
+  EXPECT_EQ(verdicts.back(), ImuVerdict::kStuck);
+  ImuSample moving = sampleAt(0.02 * (params().stuck_samples + 6));
+  moving.omega_ib_b = {2e-5, 0.126, 3e-5};
+  EXPECT_TRUE(isAccepted(screen.check(moving).verdict));
+}
+
+TEST(ImuScreen, ASensorThatIsConstantOnAllAxesIsNotStuck) {
+  ImuScreen screen = running();
+  for (int i = 1; i < 100; ++i) {
+    ASSERT_EQ(screen.check(sampleAt(0.02 * i)).verdict, ImuVerdict::kAccepted);
+  }
+}
+
+TEST(ImuScreen, WithoutALimitNothingIsStuck) {
+  ImuInputParams tolerant = params();
+  tolerant.stuck_samples = 0;
+  ImuScreen screen(tolerant);
+  const std::vector<ImuVerdict> verdicts = verdictsWithStuckGyro(100, screen);
+  EXPECT_EQ(std::count(verdicts.begin(), verdicts.end(), ImuVerdict::kStuck), 0);
 }
 
 TEST(ImuScreen, RepeatedAndSlightlyOlderSamplesAreRefused) {

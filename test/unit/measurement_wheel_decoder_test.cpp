@@ -15,6 +15,8 @@ using Values = std::vector<double>;
 
 std::vector<WheelParams> twoWheels() { return {{"left", 0.1, 0.0, 0.3, 1.0}, {"right", 0.1, 0.0, -0.3, -1.0}}; }
 
+constexpr double kMaxSpeed_mps = 5.0;
+
 class WheelDecoderTest : public ::testing::Test {
  protected:
   std::optional<WheelSample> decode(Nanoseconds stamp, const Names& names, const Values& position,
@@ -22,7 +24,7 @@ class WheelDecoderTest : public ::testing::Test {
     return decoder_.decode({stamp, names, position, velocity});
   }
 
-  WheelDecoder decoder_{twoWheels()};
+  WheelDecoder decoder_{twoWheels(), kMaxSpeed_mps};
 };
 
 TEST_F(WheelDecoderTest, TakesVelocitiesByNameWithTheConfiguredSign) {
@@ -53,7 +55,7 @@ TEST_F(WheelDecoderTest, TakesNamelessArraysInTheOrderOfTheConfiguration) {
 TEST(WheelDecoder, TakesWheelsWithoutConfiguredNamesInOrder) {
   std::vector<WheelParams> wheels = twoWheels();
   wheels[0].name = wheels[1].name = "";
-  WheelDecoder decoder(wheels);
+  WheelDecoder decoder(wheels, kMaxSpeed_mps);
   const Names names = {"a", "b", "c"};
   const Values rates = {1.0, -2.0, 7.0};
   const auto sample = decoder.decode({1, names, {}, rates});
@@ -73,6 +75,21 @@ TEST_F(WheelDecoderTest, DifferencesPositionsWhereThereAreNoVelocities) {
   ASSERT_TRUE(sample);
   EXPECT_NEAR(sample->rate_radps[0], 5.0, 1e-12);
   EXPECT_NEAR(sample->rate_radps[1], 1.0, 1e-12);
+}
+
+TEST_F(WheelDecoderTest, AnEncoderThatOverflowsCostsOneSample) {
+  decode(kSecond, {"left", "right"}, {99.5, 1.0}, {});
+  EXPECT_FALSE(decode(kSecond + kSecond / 10, {"left", "right"}, {-100.0, 1.0}, {}));
+  EXPECT_EQ(decoder_.problem(), "says that 'left' has jumped");
+  const auto sample = decode(kSecond + kSecond / 5, {"left", "right"}, {-99.5, 1.0}, {});
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->rate_radps[0], 5.0, 1e-9);
+}
+
+TEST_F(WheelDecoderTest, ImpossibleVelocitiesAreRefused) {
+  EXPECT_TRUE(decode(1, {"left", "right"}, {}, {49.0, -49.0}));
+  EXPECT_FALSE(decode(1, {"left", "right"}, {}, {1.0, -51.0}));
+  EXPECT_EQ(decoder_.problem(), "says that 'right' turns too fast");
 }
 
 TEST_F(WheelDecoderTest, RepeatedPositionsGiveNoRate) {

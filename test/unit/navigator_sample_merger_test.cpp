@@ -52,36 +52,58 @@ class SampleMergerTest : public ::testing::Test {
   SampleMerger merger_{kMaxWait_s};
 };
 
-TEST_F(SampleMergerTest, WaitsUntilEverySensorHasGonePast) {
+TEST_F(SampleMergerTest, LetsGoWhatTheImuHasGoneOnFromByTheWait) {
   merger_.push(imuAt(2000));
-  merger_.push(imuAt(2020));
-  EXPECT_EQ(advance(), "");
   merger_.push(wheelsAt(2010));
-  EXPECT_EQ(advance(), "");
   merger_.push(fixAt(2015));
-  EXPECT_EQ(advance(), "i2000 w2010 ");
-  merger_.push(wheelsAt(2110));
-  EXPECT_EQ(advance(), "f2015 ");
+  merger_.push(imuAt(2020));
+  merger_.push(imuAt(2999));
+  EXPECT_EQ(advance(), "");
+  merger_.push(imuAt(3000));
+  EXPECT_EQ(advance(), "i2000 ");
+  merger_.push(imuAt(3015));
+  EXPECT_EQ(advance(), "w2010 f2015 ");
+}
+
+TEST_F(SampleMergerTest, OtherSensorsThatAreAheadDoNotHurryIt) {
+  merger_.push(imuAt(2000));
+  merger_.push(wheelsAt(2500));
+  merger_.push(wheelsAt(3400));
+  EXPECT_EQ(advance(), "");
 }
 
 TEST_F(SampleMergerTest, OfEqualStampsTheImuIsLast) {
   merger_.push(imuAt(2000));
   merger_.push(wheelsAt(2000));
   merger_.push(fixAt(2000));
-  EXPECT_EQ(advance(), "f2000 w2000 i2000 ");
+  EXPECT_EQ(flush(), "f2000 w2000 i2000 ");
 }
 
-TEST_F(SampleMergerTest, DoesNotWaitForASensorThatIsSilentForLong) {
+TEST_F(SampleMergerTest, OvertakenSamplesAreBroughtIntoOrder) {
   merger_.push(imuAt(2000));
-  merger_.push(imuAt(2999));
-  EXPECT_EQ(advance(), "");
-  merger_.push(imuAt(3000));
-  EXPECT_EQ(advance(), "i2000 ");
+  merger_.push(wheelsAt(2300));
+  merger_.push(wheelsAt(2100));
+  merger_.push(wheelsAt(2200));
+  merger_.push(fixAt(2250));
+  merger_.push(fixAt(2050));
+  EXPECT_EQ(flush(), "i2000 f2050 w2100 w2200 f2250 w2300 ");
+}
+
+TEST_F(SampleMergerTest, WrongStampsAreLeftOut) {
+  merger_.push(imuAt(5000));
+  merger_.push(imuAt(0));
+  merger_.push(imuAt(5020));
+  merger_.push(wheelsAt(5010));
+  merger_.push(wheelsAt(1000));
+  merger_.push(wheelsAt(5110));
+  EXPECT_EQ(flush(), "i5000 w5010 i5020 w5110 ");
+  EXPECT_EQ(merger_.leftOut(), 2U);
 }
 
 TEST_F(SampleMergerTest, SilenceIsJudgedByTrustedStampsAlone) {
   merger_.push(imuAt(2000));
-  merger_.push(imuAt(4000));
+  merger_.push(imuAt(2900));
+  merger_.push(imuAt(3800));
   std::string text;
   const auto note = [&text](const Sample& sample) { text += describe(sample); };
   merger_.advanceTrusting(2999 * kMillisecond, note);
@@ -90,7 +112,7 @@ TEST_F(SampleMergerTest, SilenceIsJudgedByTrustedStampsAlone) {
   EXPECT_EQ(text, "i2000");
 }
 
-TEST_F(SampleMergerTest, KeepsTheOrderWithinASensor) {
+TEST_F(SampleMergerTest, KeepsTheOrderWithinTheImu) {
   merger_.push(imuAt(2020));
   merger_.push(imuAt(2000));
   merger_.push(imuAt(2040));

@@ -13,6 +13,7 @@
 #include "slipnav/forecast/forecast_params.h"
 #include "slipnav/measurement/imu_mount.h"
 #include "slipnav/measurement/wheel_geometry.h"
+#include "slipnav/navigator/checkpoint.h"
 #include "slipnav/navigator/pipeline.h"
 #include "slipnav/overlay/overlay_params.h"
 #include "slipnav/sim/params.h"
@@ -38,12 +39,14 @@ struct Config {
   TruthParams truth;
   std::vector<WheelParams> wheels = pathfinderWheels();
   WheelOdometryParams wheel;
+  WheelMonitorParams wheel_monitor;
   VehicleModelParams vehicle;
   NonholonomicParams nonholonomic;
   ZeroMotionParams zero_motion;
   StationaryParams stationary;
   FilterParams filter;
   InitializationParams initialization;
+  CheckpointParams checkpoint;
   ForecastParams forecast;
   StopParams stop;
   OverlayParams overlay;

@@ -46,6 +46,9 @@ struct VehicleState {
 void subtractError(const Planet& planet, const ErrorVector& error, NavigationState& state);
 void subtractError(const ErrorVector& error, VehicleState& state);
 
+/// Makes one error unknown by `variance` and independent of all others.
+void forgetError(int index, double variance, ErrorCovariance& P);
+
 /// Position error [m], north-east-down, of `estimate` against `truth` (small differences).
 Vector3 positionDifference(const Planet& planet, const Geodetic& estimate, const Geodetic& truth);
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "slipnav/filter/error_state.h"
 #include "slipnav/measurement/body_motion.h"
@@ -18,6 +19,14 @@ struct InitialState {
   ErrorCovariance P = ErrorCovariance::Identity();
   Geodetic origin;               ///< of the map frame
   double tremor_variance = 0.0;  ///< of the velocity at standstill as learned so far [m²/s²]; 0: not yet
+};
+
+/// A position, and maybe a heading, that somebody knows better than the filter.
+struct Placement {
+  Geodetic position;  ///< of the IMU
+  double position_std_m = 0.0;
+  std::optional<double> heading_rad;  ///< clockwise from north; the present one stays without
+  double heading_std_rad = 0.0;
 };
 
 /// Mean wheel motion over the interval that ends at `stamp`, whatever message it came in.

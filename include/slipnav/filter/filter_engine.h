@@ -2,9 +2,9 @@
 /// The error-state extended Kalman filter: owns the covariance, consumes mechanised steps in order, applies wheel,
 /// non-holonomic and zero updates at the stamps of the wheel samples, and tells the mechanisation what to correct.
 ///
-/// A step is processed only when it is certain which wheel samples lie inside it: when a wheel sample at or after its
-/// end has come, or when the IMU has gone on for `max_wait_s` without one. What is computed therefore depends on the
-/// stamps, not on the order of arrival.
+/// A step is processed only when it is certain which wheel samples lie inside it: when all of them are known up to one
+/// at or after its end, or when the IMU has gone on for `max_wait_s`. Where wheel samples are further apart than usual,
+/// one may still be on its way. What is computed therefore depends on the stamps, not on the order of arrival.
 
 #include <cstdint>
 #include <functional>
@@ -15,6 +15,8 @@
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/filter/gated_update.h"
+#include "slipnav/filter/unseen_motion.h"
+#include "slipnav/filter/wheel_cadence.h"
 #include "slipnav/ins/ins_engine.h"
 #include "slipnav/measurement/motion_average.h"
 #include "slipnav/measurement/position_fix.h"
@@ -41,8 +43,15 @@ class FilterEngine {
   /// Takes a position fix, used while initialising; false as above.
   bool push(const PositionFix& fix);
 
+  /// Puts the state that was processed last to another place. What is known of velocity in body axes, tilt, biases and
+  /// slip stays. Throws std::invalid_argument for impossible numbers, and when nothing has been processed yet.
+  Correction place(const Placement& placement);
+
   /// Says that no wheel sample up to `stamp` is still to come.
   void assumeCompleteUpTo(Nanoseconds stamp);
+
+  /// The stamp up to which wheel samples are known without a hole between them.
+  Nanoseconds wheelsKnownUntil() const;
 
   /// Processes steps in order until none is certain, or until a measurement corrects the state. Then the correction has
   /// to reach the mechanisation, whose new steps come back by push().
@@ -55,12 +64,14 @@ class FilterEngine {
   const ErrorTransition& lastTransition() const { return transition_; }
   const ComponentStatus& status(Component component) const { return update_.status(component); }
   const ErrorDynamics& dynamics() const { return dynamics_; }
+  const WheelMonitor& wheelMonitor() const { return wheel_monitor_; }
 
  private:
   bool isCertain(const InsStep& step) const;
+  void beginWheels(const WheelMotion& wheels, Nanoseconds start);
   Vector3 propagate(const InsStep& step);
   Vector3 referenceVelocity(const InsStep& step) const;
-  void inflateForGap(double gap_s);
+  void forgetSlipImpulse();
   bool applyWheels(const InsStep& step, const Vector3& v_mean_b);
   void addMotion(const InsStep& step, const Vector3& v_mean_b, Nanoseconds until);
   bool verticalMeanIsDue() const;
@@ -68,13 +79,18 @@ class FilterEngine {
   MeasurementSet movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const;
   MeasurementSet restingMeasurements(const BodyMotion& motion) const;
   bool applyFixes();
+  PlanarMotion soundMotion(const WheelMotion& wheels) const;
   bool update(MeasurementSet set);
+  void turnTo(double heading_rad, double heading_std_rad);
 
   Planet planet_;
   FilterSetup setup_;
   ErrorDynamics dynamics_;
   StationaryDetector detector_;
   GatedUpdate update_;
+  UnseenMotion unseen_motion_;
+  WheelMonitor wheel_monitor_;
+  WheelCadence cadence_;  ///< of the samples that were processed
   Tremor tremor_;
   GroundFactor slip_ground_;
   GroundFactor side_slip_ground_;
@@ -94,7 +110,7 @@ class FilterEngine {
   RingQueue<InsStep> steps_;
   RingQueue<WheelMotion> wheels_;  ///< not yet applied, by stamp
   RingQueue<PositionFix> fixes_;   ///< likewise
-  Nanoseconds newest_wheels_ = 0;
+  Nanoseconds complete_until_ = 0;
   Nanoseconds slipping_until_ = 0;       ///< a slip impulse makes the wheel speed useless until then
   double recent_wheel_speed_mps_ = 0.0;  ///< of the samples before the present one, smoothed
   MotionAverage average_;                ///< over the wheel interval that is open

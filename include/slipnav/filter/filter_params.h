@@ -8,6 +8,7 @@
 #include "slipnav/filter/error_dynamics.h"
 #include "slipnav/filter/ground_factor.h"
 #include "slipnav/measurement/nonholonomic.h"
+#include "slipnav/measurement/wheel_monitor.h"
 #include "slipnav/measurement/wheel_odometry.h"
 #include "slipnav/measurement/zero_motion.h"
 #include "slipnav/slip/stationary_detector.h"
@@ -21,8 +22,9 @@ struct FilterParams {
   double max_rejection_s = 3.0;
   double max_wait_s = 1.0;
   double max_wheel_interval_s = 0.5;
-  double gap_rate_std_deg_per_s = 10.0;
+  double gap_rate_std_deg_per_s = 5.0;
   double gap_accel_std_mps2 = 0.5;
+  double gap_max_tilt_deg = 4.0;
   GroundFactorParams ground;
   void visit(ParameterVisitor& v);
 
@@ -37,6 +39,8 @@ struct FilterSetup {
   NonholonomicParams nonholonomic;
   ZeroMotionParams zero;
   StationaryParams stationary;
+  WheelMonitorParams wheel_monitor;
+  std::vector<WheelParams> wheels;
   Vector3 lever_imu_to_reference_b = Vector3::Zero();  ///< from the IMU to the vehicle's centre of turn [m]
   Vector3 lever_imu_to_antenna_b = Vector3::Zero();    ///< from the IMU to the antenna of gps/fix [m]
 };

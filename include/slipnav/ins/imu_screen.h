@@ -2,6 +2,7 @@
 /// Tells usable IMU samples from those that are not. The same samples in the same order give the same verdicts, so that
 /// everybody who listens to one IMU agrees on what has happened.
 
+#include <array>
 #include <string>
 
 #include "slipnav/config/parameter_visitor.h"
@@ -13,8 +14,9 @@ struct ImuInputParams {
   std::string sampling = "mean";
   double max_specific_force_mps2 = 200.0;
   double max_rate_deg_per_s = 2000.0;
-  double gap_factor = 2.5;
-  double max_bridged_gap_s = 1.0;
+  double gap_factor = 1.6;
+  double max_bridged_gap_s = 1.2;
+  int stuck_samples = 20;
   void visit(ParameterVisitor& v);
 };
 
@@ -22,7 +24,8 @@ enum class ImuVerdict {
   kAccepted,
   kAfterGap,      ///< accepted; samples are missing before it
   kNotFinite,     ///< refused: NaN or infinite
-  kOutOfRange,    ///< refused: beyond what the sensor can measure
+  kOutOfRange,    ///< refused: at or beyond the end of what the sensor can measure
+  kStuck,         ///< refused: one axis has not changed for long while others of its kind do
   kNotNewer,      ///< refused: repeated stamp, or older than the newest by less than a second
   kTimeWentBack,  ///< refused: older by a second or more; the source has started anew
 };
@@ -56,7 +59,20 @@ class ImuScreen {
   Nanoseconds newestStamp() const { return newest_stamp_; }
 
  private:
+  /// How often in a row each axis of one triad has had the very same value.
+  struct Repeats {
+    Vector3 value = Vector3::Zero();
+    std::array<int, 3> count = {};
+    void add(const Vector3& next);
+    /// Whether an axis has repeated itself `limit` times, and another one has not.
+    bool isStuck(int limit) const;
+  };
+
+  bool isInRange(const ImuSample& sample) const;
+
   ImuInputParams params_;
+  Repeats force_;
+  Repeats rate_;
   Nanoseconds newest_stamp_ = 0;
   double period_s_ = 0.0;  ///< running mean of the regular sample interval
 };

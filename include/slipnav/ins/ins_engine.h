@@ -40,6 +40,8 @@ class InsEngine {
   /// Starts mechanising from `state`; samples up to its stamp are dropped, later ones that are buffered are used.
   void initialise(const NavigationState& state);
   bool isInitialised() const { return initialised_; }
+  /// Ends mechanising; samples are buffered for the next initial state.
+  void release() { initialised_ = false; }
 
   /// Checks and buffers a sample.
   ImuVerdict push(const ImuSample& sample);
@@ -64,6 +66,8 @@ class InsEngine {
   };
 
   Slot& slot(std::uint64_t sequence) { return ring_[sequence & (ring_.size() - 1)]; }
+  /// What an IMU measures while attitude and velocity stay as they are.
+  ImuInterval unchanging(const NavigationState& state, double duration_s) const;
   void append(const Slot& slot);
   void makeRoom();
   void dropUpTo(Nanoseconds stamp);
@@ -71,6 +75,7 @@ class InsEngine {
   Strapdown strapdown_;
   ImuScreen screen_;
   bool instantaneous_;
+  double max_bridged_gap_s_;
   std::vector<Slot> ring_;   ///< power of two in size; holds [first_, end_)
   std::uint64_t first_ = 0;  ///< oldest buffered sequence
   std::uint64_t next_ = 0;   ///< next to be mechanised

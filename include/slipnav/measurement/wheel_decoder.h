@@ -21,11 +21,14 @@ struct JointArrays {
 
 class WheelDecoder {
  public:
-  explicit WheelDecoder(std::vector<WheelParams> wheels) : wheels_(std::move(wheels)) {}
+  /// @param max_speed_mps a wheel that goes faster at its circumference has not been read rightly
+  WheelDecoder(std::vector<WheelParams> wheels, double max_speed_mps)
+      : wheels_(std::move(wheels)), max_speed_mps_(max_speed_mps) {}
 
   /// Rates by the velocities, or where there are none by the difference of positions to the message before; positive
   /// forward. Nothing for a message that cannot be used, with the reason in problem(), and nothing without a problem
-  /// for the first of a series of positions. A message that cannot be used leaves the decoder as it was.
+  /// for the first of a series of positions. A message that cannot be used leaves the decoder as it was, but for one
+  /// whose positions have jumped, as those of an encoder that has overflowed: the next is differenced to it.
   std::optional<WheelSample> decode(const JointArrays& joints);
 
   /// What was wrong with the last message, "" when nothing.
@@ -38,8 +41,10 @@ class WheelDecoder {
   bool locate(const JointArrays& joints);
   std::optional<WheelSample> pick(const JointArrays& joints, const std::vector<double>& values, const char* what);
   std::optional<WheelSample> fromPositions(const JointArrays& joints);
+  std::optional<WheelSample> possible(const WheelSample& rates, const char* what);
 
   std::vector<WheelParams> wheels_;
+  double max_speed_mps_;
   std::vector<std::string> names_;    ///< of the message that `indices_` belongs to
   std::vector<std::size_t> indices_;  ///< where each wheel stands in the arrays
   std::optional<WheelSample> last_;   ///< angles [rad] in place of rates

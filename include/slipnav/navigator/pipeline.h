@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "slipnav/navigator/health.h"
 #include "slipnav/navigator/initializer.h"
 #include "slipnav/navigator/navigator.h"
 
@@ -41,6 +42,7 @@ class Pipeline {
   const Initializer& initializer() const { return initializer_; }
   const FilterEngine& filter() const { return navigator_.filter(); }
   const SampleCounts& counts() const { return counts_; }
+  const HealthMonitor& health() const { return health_; }
 
  private:
   void tryToStart();
@@ -53,6 +55,7 @@ class Pipeline {
   Navigator navigator_;
   std::optional<InitialState> initial_;
   SampleCounts counts_;
+  HealthMonitor health_;
 };
 
 }  // namespace slipnav

@@ -1,19 +1,22 @@
 #pragma once
-/// Brings the samples of several sensors, each of which comes in its own order, into one order by stamp.
+/// Brings the samples of several sensors into one order by stamp, whatever the order in which they come.
 ///
-/// A sample is let go when every other sensor has gone past its stamp, or has been silent for so long that nothing is
-/// expected of it. Within one sensor the order of arrival stays. A sensor whose stamps go back by a second or more has
-/// started anew: what follows belongs after everything of all sensors before their own such step.
+/// A sample is let go when the IMU has gone on by the wait since; what comes later than that is out of order, and those
+/// who get it refuse it. IMU samples stay in their order of arrival among themselves. A sensor whose stamps go back by
+/// a second or more has started anew: what follows belongs after everything of all sensors before their own such step.
+/// Single samples with a wrong stamp are left out (JumpFilter).
 
 #include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <tuple>
 #include <utility>
 #include <variant>
 
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/measurement/position_fix.h"
+#include "slipnav/navigator/jump_filter.h"
 
 namespace slipnav {
 
@@ -27,18 +30,24 @@ class SampleMerger {
  public:
   using Sink = std::function<void(const Sample&)>;
 
-  /// @param max_wait_s how far, in stamps, the other sensors may be ahead of a silent one before it is not waited for
+  /// @param max_wait_s how late a sample may be, in stamps of the IMU
   explicit SampleMerger(double max_wait_s) : max_wait_(fromSeconds(max_wait_s)) {}
 
   void push(const Sample& sample);
 
-  /// Lets go what has become certain.
-  /// @param trusted newest stamp by which silence is judged: samples later than that may have overtaken others
-  void advance(const Sink& sink) { advance(newest_, sink); }
-  void advanceTrusting(Nanoseconds trusted, const Sink& sink) { advance({newest_.session, trusted}, sink); }
+  /// Lets go what nothing can come before any more.
+  /// @param trusted newest stamp of the IMU by which that is judged: later samples may have overtaken others
+  void advance(const Sink& sink) { advance(newest_imu_, sink); }
+  void advanceTrusting(Nanoseconds trusted, const Sink& sink) { advance({newest_imu_.session, trusted}, sink); }
 
   /// Lets go everything.
   void flush(const Sink& sink);
+
+  /// Stamp of the newest IMU sample, 0 before the first.
+  Nanoseconds newestImuStamp() const { return newest_imu_.stamp; }
+
+  /// Samples that were left out for their stamps, of all sensors.
+  std::uint64_t leftOut() const;
 
  private:
   /// Stamps are comparable within a session, sessions follow each other.
@@ -58,13 +67,15 @@ class SampleMerger {
     Instant newest;
   };
 
+  void insert(const Sample& sample);
   void advance(const Instant& trusted, const Sink& sink);
   Stream* earliest();
-  bool isCertain(const Entry& entry, const Instant& trusted) const;
+  bool isCertain(const Instant& instant, const Instant& trusted) const;
 
   Nanoseconds max_wait_;
+  std::tuple<JumpFilter<ImuSample>, JumpFilter<WheelMotion>, JumpFilter<PositionFix>> filters_;
   std::array<Stream, std::variant_size_v<Sample>> streams_;
-  Instant newest_;
+  Instant newest_imu_;
 };
 
 }  // namespace slipnav

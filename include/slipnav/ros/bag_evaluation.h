@@ -7,11 +7,14 @@
 #include "slipnav/config/config.h"
 #include "slipnav/eval/report.h"
 #include "slipnav/ros/bag_reader.h"
+#include "slipnav/ros/odometry_log.h"
 
 namespace slipnav {
 
 struct BagEvaluation {
   RunReport report;
+  OdometryLog odometry;                 ///< what the nodelets publish for this recording
+  Alarms alarms;                        ///< what was wrong, and when
   std::map<std::string, int> problems;  ///< messages that could not be used: what was wrong, how often
 };
 

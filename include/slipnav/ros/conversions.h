@@ -9,6 +9,7 @@
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/NavSatFix.h>
 #include <slipnav/NavState.h>
+#include <slipnav/SetState.h>
 #include <slipnav/Slip.h>
 
 #include <optional>
@@ -51,6 +52,10 @@ EstimateSample toEstimateSample(const nav_msgs::Odometry& message);
 /// A true pose and velocity as the state of the IMU. The frame of the message is taken as east-north-up about `origin`.
 NavigationState toNavigationState(const nav_msgs::Odometry& message, const LocalFrame& origin,
                                   const Vector3& imu_position_b);
+
+/// Where the IMU is to be put. @param map the frame of the request; @param present gives roll and pitch
+Placement toPlacement(const SetStateRequest& request, const LocalFrame& map, const NavigationState& present,
+                      const Vector3& lever_imu_to_base_b);
 
 /// Pose in `odom`, twist in base_link; covariances in the same axes.
 void fill(const Output& output, const FrameNames& frames, nav_msgs::Odometry& message);

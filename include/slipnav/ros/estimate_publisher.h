@@ -21,6 +21,9 @@ class EstimatePublisher {
   /// @param lever_imu_to_base_b from the IMU to base_link, body axes [m]; @param gyro_noise_density [rad²/s]
   void start(const Geodetic& origin, const Vector3& lever_imu_to_base_b, double gyro_noise_density);
 
+  /// The map frame. Call start() before.
+  const LocalFrame& frame() const { return output_->frame(); }
+
   /// One estimate. Call start() before.
   void publish(const Estimate& estimate, const ErrorCovariance& P);
 

@@ -19,7 +19,7 @@ InsInterval toMessage(const InsStep& step);
 /// @param epoch of the batch that the interval came in
 InsStep fromMessage(const InsInterval& message, std::uint32_t epoch);
 
-/// Fills everything but the session.
+/// Fills everything but the counts; `known` is set.
 void fill(const InitialState& initial, StartState& message);
 InitialState fromMessage(const StartState& message);
 
@@ -29,7 +29,7 @@ void fill(const Estimate& estimate, const ErrorCovariance& P, ForecastInput& mes
 Estimate estimateOf(const ForecastInput& message);
 ErrorCovariance covarianceOf(const ForecastInput& message);
 
-/// Fills everything but the session and the look-ahead.
+/// Fills everything but the start and the look-ahead.
 void fill(const Correction& correction, FilterCorrection& message);
 /// For a message that corrects.
 Correction fromMessage(const FilterCorrection& message);

@@ -41,20 +41,21 @@ class StepGate {
   /// @param max_wait_s filter.max_wait_s; nothing when no wheel samples are used
   explicit StepGate(std::optional<double> max_wait_s) : max_wait_s_(max_wait_s) {}
 
+  /// Drops what is held; steps that come again in their place need not wait again.
   void clear() { held_.clear(); }
-  void push(const InsStep& step, double now_s) { held_.push_back({step, now_s}); }
+  /// Forgets everything.
+  void restart();
+  void push(const InsStep& step, double now_s);
 
   /// Lets steps go, in order.
-  /// @param newest_wheels stamp of the newest wheel sample, 0 before the first
-  void release(Nanoseconds newest_wheels, double now_s, const std::function<void(const InsStep&)>& sink);
+  /// @param wheels_known_until wheel samples are known without a hole up to this stamp
+  void release(Nanoseconds wheels_known_until, double now_s, const std::function<void(const InsStep&)>& sink);
 
  private:
-  struct Held {
-    InsStep step;
-    double time_s;
-  };
   std::optional<double> max_wait_s_;
-  std::deque<Held> held_;
+  std::deque<InsStep> held_;
+  Nanoseconds newest_ = 0;
+  TrustedStamp trusted_;
 };
 
 }  // namespace slipnav

@@ -8,6 +8,7 @@
 
 #include "slipnav/config/topics.h"
 #include "slipnav/ros/estimate_recorder.h"
+#include "slipnav/ros/odometry_log.h"
 
 namespace slipnav {
 
@@ -35,10 +36,12 @@ class ReplaySession {
   void waitForEstimate(Nanoseconds last_stamp);
 
   const EstimateRecorder& recorder() const { return recorder_; }
+  const OdometryLog& odometry() const { return odometry_; }
 
  private:
   ros::NodeHandle node_;
   EstimateRecorder recorder_;
+  OdometryLog odometry_;
   std::vector<ros::Subscriber> subscribers_;
 };
 

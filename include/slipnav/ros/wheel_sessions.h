@@ -17,8 +17,8 @@ class WheelSessions {
   /// The initial state of the next session has come. @return its samples so far
   std::vector<WheelMotion> startNext();
 
-  /// Of the session that the filter works on, 0 before the first.
-  Nanoseconds newestStamp() const { return started_ && !outdated_ ? newest_ : 0; }
+  /// The filter wants no more; samples wait for the initial state of a new start in the same session.
+  void pause() { started_ = outdated_ = false; }
 
  private:
   std::deque<WheelMotion> waiting_;  ///< of the session whose initial state is awaited

@@ -1,0 +1,49 @@
+#pragma once
+/// What is wrong with the sensors or the filter, by name: one wording for diagnostics, logs and the fault campaign.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "slipnav/filter/filter_engine.h"
+#include "slipnav/ins/imu_screen.h"
+
+namespace slipnav {
+
+/// When something was wrong, in stamps.
+struct Alarm {
+  Nanoseconds first = 0;
+  Nanoseconds last = 0;
+  std::uint64_t count = 0;
+};
+
+using Alarms = std::map<std::string, Alarm>;
+
+class HealthMonitor {
+ public:
+  /// @param setup names the wheels and says how long they may be silent
+  explicit HealthMonitor(const FilterSetup& setup);
+
+  void noteImu(Nanoseconds stamp, ImuVerdict verdict);
+  /// @param taken whether the filter had use for it
+  void noteWheels(Nanoseconds stamp, bool taken);
+  /// Looks at rejected measurements, silent wheels and wheels that contradict the others.
+  void noteFilter(const FilterEngine& filter);
+  void note(const std::string& name, Nanoseconds stamp);
+  /// The clock has gone back.
+  void restart() { newest_wheels_ = 0; }
+
+  /// Everything there has been.
+  const Alarms& alarms() const { return alarms_; }
+  /// What has been seen in the last seconds before `now`, with commas between, "" for nothing.
+  std::string active(Nanoseconds now) const;
+
+ private:
+  double max_wheel_interval_s_;
+  std::vector<std::string> wheel_names_;
+  Nanoseconds newest_wheels_ = 0;
+  Alarms alarms_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,78 @@
+#include "slipnav/navigator/health.h"
+
+#include <algorithm>
+
+namespace slipnav {
+namespace {
+
+/// A measurement that has been rejected for so long contradicts; single ones are outliers.
+constexpr double kRejected_s = 1.0;
+constexpr double kActive_s = 5.0;
+
+}  // namespace
+
+HealthMonitor::HealthMonitor(const FilterSetup& setup) : max_wheel_interval_s_(setup.filter.max_wheel_interval_s) {
+  for (std::size_t i = 0; i < setup.wheels.size(); ++i) {
+    const std::string& name = setup.wheels[i].name;
+    wheel_names_.push_back(name.empty() ? "wheel " + std::to_string(i) : name);
+  }
+}
+
+void HealthMonitor::note(const std::string& name, Nanoseconds stamp) {
+  Alarm& alarm = alarms_[name];
+  if (alarm.count++ == 0) {
+    alarm.first = stamp;
+  }
+  alarm.last = stamp;
+}
+
+void HealthMonitor::noteImu(Nanoseconds stamp, ImuVerdict verdict) {
+  if (verdict == ImuVerdict::kAfterGap) {
+    note("IMU gap", stamp);
+  } else if (!isAccepted(verdict)) {
+    note(std::string("IMU sample ") + complaintOf(verdict), stamp);
+  }
+}
+
+void HealthMonitor::noteWheels(Nanoseconds stamp, bool taken) {
+  if (!taken) {
+    note("wheel sample repeated or too late", stamp);
+  }
+  newest_wheels_ = std::max(newest_wheels_, stamp);
+}
+
+void HealthMonitor::noteFilter(const FilterEngine& filter) {
+  if (!filter.isInitialised()) {
+    return;
+  }
+  const Nanoseconds now = filter.state().stamp;
+  if (newest_wheels_ == 0) {
+    newest_wheels_ = now;  // watched from here on
+  } else if (toSeconds(now - newest_wheels_) > max_wheel_interval_s_) {
+    note("wheels silent", now);
+  }
+  for (int i = 0; i < kComponents; ++i) {
+    const Component component = static_cast<Component>(i);
+    const Nanoseconds since = filter.status(component).rejected_since;
+    if (since != 0 && toSeconds(now - since) > kRejected_s) {
+      note(std::string(componentName(component)) + " contradicts", now);
+    }
+  }
+  for (std::size_t i = 0; i < wheel_names_.size(); ++i) {
+    if (filter.wheelMonitor().isFaulty(i)) {
+      note(wheel_names_[i] + " contradicts the other wheels", now);
+    }
+  }
+}
+
+std::string HealthMonitor::active(Nanoseconds now) const {
+  std::string names;
+  for (const auto& [name, alarm] : alarms_) {
+    if (alarm.last <= now && toSeconds(now - alarm.last) < kActive_s) {
+      names += (names.empty() ? "" : ", ") + name;
+    }
+  }
+  return names;
+}
+
+}  // namespace slipnav

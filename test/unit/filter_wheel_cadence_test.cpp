@@ -1,0 +1,57 @@
+#include "slipnav/filter/wheel_cadence.h"
+
+#include <gtest/gtest.h>
+
+namespace slipnav {
+namespace {
+
+constexpr Nanoseconds kMillisecond = 1'000'000;
+
+WheelCadence regular(int intervals, Nanoseconds interval_ms) {
+  WheelCadence cadence(0.5);
+  cadence.restart(1000 * kMillisecond);
+  for (int i = 1; i <= intervals; ++i) {
+    cadence.add((1000 + i * interval_ms) * kMillisecond);
+  }
+  return cadence;
+}
+
+bool isHole(const WheelCadence& cadence, Nanoseconds length_ms) {
+  return cadence.isHole(cadence.newest(), cadence.newest() + length_ms * kMillisecond);
+}
+
+TEST(WheelCadence, TrustsNothingUntilItKnowsTheUsualInterval) {
+  EXPECT_TRUE(isHole(regular(3, 100), 100));
+  EXPECT_FALSE(isHole(regular(4, 100), 100));
+}
+
+TEST(WheelCadence, HalfAnIntervalMoreIsAHole) {
+  const WheelCadence cadence = regular(20, 100);
+  EXPECT_FALSE(isHole(cadence, 149));
+  EXPECT_TRUE(isHole(cadence, 151));
+}
+
+TEST(WheelCadence, FollowsASensorThatChangesItsRate) {
+  WheelCadence cadence = regular(20, 100);
+  EXPECT_TRUE(isHole(cadence, 200));
+  for (int i = 0; i < 20; ++i) {
+    cadence.add(cadence.newest() + 200 * kMillisecond);
+  }
+  EXPECT_FALSE(isHole(cadence, 200));
+}
+
+TEST(WheelCadence, LearnsNothingFromAnOutage) {
+  WheelCadence cadence = regular(4, 100);
+  cadence.add(cadence.newest() + 30'000 * kMillisecond);
+  EXPECT_TRUE(isHole(cadence, 151));
+}
+
+TEST(WheelCadence, ARestartForgets) {
+  WheelCadence cadence = regular(20, 100);
+  cadence.restart(5000 * kMillisecond);
+  EXPECT_EQ(cadence.newest(), 5000 * kMillisecond);
+  EXPECT_TRUE(isHole(cadence, 100));
+}
+
+}  // namespace
+}  // namespace slipnav

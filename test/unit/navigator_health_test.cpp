@@ -1,0 +1,62 @@
+#include "slipnav/navigator/health.h"
+
+#include <gtest/gtest.h>
+
+#include "recorded_drive.h"
+
+namespace slipnav::test {
+namespace {
+
+constexpr Nanoseconds kSecond = 1'000'000'000;
+
+FilterSetup setup() { return Config().navigation().filter; }
+
+TEST(HealthMonitor, NamesWhatIsWrongWithTheImu) {
+  HealthMonitor health(setup());
+  health.noteImu(10 * kSecond, ImuVerdict::kAccepted);
+  EXPECT_TRUE(health.alarms().empty());
+  health.noteImu(11 * kSecond, ImuVerdict::kAfterGap);
+  health.noteImu(12 * kSecond, ImuVerdict::kStuck);
+  health.noteImu(13 * kSecond, ImuVerdict::kStuck);
+  ASSERT_EQ(health.alarms().size(), 2U);
+  const Alarm& stuck = health.alarms().at("IMU sample an axis does not change any more");
+  EXPECT_EQ(stuck.first, 12 * kSecond);
+  EXPECT_EQ(stuck.last, 13 * kSecond);
+  EXPECT_EQ(stuck.count, 2U);
+}
+
+TEST(HealthMonitor, WhatIsLongAgoIsNotActive) {
+  HealthMonitor health(setup());
+  health.note("something", 10 * kSecond);
+  health.note("something else", 14 * kSecond);
+  EXPECT_EQ(health.active(14 * kSecond), "something, something else");
+  EXPECT_EQ(health.active(16 * kSecond), "something else");
+  EXPECT_EQ(health.active(30 * kSecond), "");
+}
+
+TEST(HealthMonitor, SilentAndContradictingWheelsAreNoticed) {
+  const Config config = driveConfig(6.0);
+  const RecordedDrive drive = recordDrive(config);
+  const NavigationSetup setup = config.navigation();
+  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
+  navigator.initialise(drive.initial);
+  HealthMonitor health(setup.filter);
+  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  const Nanoseconds silent_from = drive.samples.back().stamp() - 3 * kSecond;
+  for (DriveSample sample : drive.samples) {
+    if (sample.is_imu) {
+      navigator.push(sample.imu, ignore);
+    } else if (sample.stamp() < silent_from) {
+      sample.wheels.circumferential_mps[2] = 0.0;
+      health.noteWheels(sample.stamp(), navigator.push(sample.wheels, ignore));
+    }
+    health.noteFilter(navigator.filter());
+  }
+  EXPECT_EQ(health.alarms().count("back_left_wheel contradicts the other wheels"), 1U);
+  EXPECT_EQ(health.alarms().count("front_left_wheel contradicts the other wheels"), 0U);
+  ASSERT_EQ(health.alarms().count("wheels silent"), 1U);
+  EXPECT_GE(health.alarms().at("wheels silent").first, silent_from);
+}
+
+}  // namespace
+}  // namespace slipnav::test
