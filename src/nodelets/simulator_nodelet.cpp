@@ -41,7 +41,7 @@ namespace {
 constexpr double kPatienceLimit_s = 60.0;
 /// As long as nobody answers, so much is simulated at most in one tick [s]: queues must not overflow.
 constexpr double kBlindAdvance_s = 1.0;
-/// The initial state may come so much later than offline [s]: it waits for the next sample of every sensor.
+/// The initial state may come so much later than offline [s], beside filter.max_wait_s: sensors are waited for.
 constexpr double kStartLag_s = 1.0;
 
 }  // namespace
@@ -218,7 +218,7 @@ class SimulatorNodelet : public CoreNodelet {
       return true;
     }
     if (!estimatesCome()) {
-      return drive_->truth().stamp < offline_start_ + fromSeconds(kStartLag_s);
+      return drive_->truth().stamp < offline_start_ + fromSeconds(config_.filter.max_wait_s + kStartLag_s);
     }
     return newest_status_ >= run_->newestStamp();
   }
