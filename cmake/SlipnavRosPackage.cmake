@@ -53,6 +53,7 @@ catkin_package(
     nav_msgs
     nodelet
     roscpp
+    rosgraph_msgs
     sensor_msgs
     std_msgs
     std_srvs
