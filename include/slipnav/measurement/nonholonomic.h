@@ -9,8 +9,8 @@
 namespace slipnav {
 
 struct NonholonomicParams {
-  double lateral_std_mps = 0.002;
-  double lateral_slope_std = 0.0073;
+  double lateral_std_mps = 0.0012;
+  double lateral_slope_std = 0.0075;
   double lateral_turn_std_m = 0.03;
   double vertical_std_mps = 0.001;
   double vertical_slope_std = 0.0033;
