@@ -31,8 +31,8 @@ struct WheelOdometryParams {
 /// @param ground on the variance of slip that is new in every sample, see GroundFactor
 Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
                                     double slipping_speed_mps, const BodyMotion& motion, const NavigationState& state,
-                                    const VehicleState& vehicle, double slip_variance,
-                                    double ground, const Vector3& lever_b);
+                                    const VehicleState& vehicle, double slip_variance, double ground,
+                                    const Vector3& lever_b);
 
 /// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z.
 Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps,
