@@ -37,9 +37,9 @@ struct MetricsInput {
 
 struct MetricsOptions {
   DistanceOptions distance;
-  /// Judge the errors by P + R with R the covariance of truth, instead of P alone. For truth that is not much better
-  /// than the estimate.
-  bool add_truth_covariance = false;
+  /// Judge the errors by P + R with R the covariance that truth has of itself, instead of P alone: what is compared with
+  /// the estimate is a measurement, too.
+  bool add_truth_covariance = true;
 };
 
 /// Names equal the keys of `metrics.json`. None where a figure cannot be told, such as errors without truth.
