@@ -37,8 +37,8 @@ struct MetricsInput {
 
 struct MetricsOptions {
   DistanceOptions distance;
-  /// Judge the errors by P + R with R the covariance that truth has of itself, instead of P alone: what is compared with
-  /// the estimate is a measurement, too.
+  /// Judge the errors by P + R with R the covariance that truth has of itself, instead of P alone: what is compared
+  /// with the estimate is a measurement, too.
   bool add_truth_covariance = true;
 };
 
