@@ -68,7 +68,7 @@ class SimulatorNodelet : public CoreNodelet {
 
   void subscribe(const Config& config) override {
     listen<StopStatus>(config.topics.stop, &SimulatorNodelet::onStatus);
-    listen<nav_msgs::Odometry>(config.topics.odometry, &SimulatorNodelet::onOdometry);
+    listen<nav_msgs::Odometry>(config.topics.odometry, &SimulatorNodelet::record<nav_msgs::Odometry>);
     listen<NavState>(config.topics.nav_state, &SimulatorNodelet::record<NavState>);
     listen<Slip>(config.topics.slip, &SimulatorNodelet::record<Slip>);
     if (supervisorIsWired(config)) {
@@ -228,14 +228,10 @@ class SimulatorNodelet : public CoreNodelet {
     proceed();
   }
 
-  void onOdometry(const nav_msgs::Odometry::ConstPtr& message) {
-    recorder_.add(*message);
-    proceed();
-  }
-
   template <class Message>
   void record(const boost::shared_ptr<const Message>& message) {
     recorder_.add(*message);
+    proceed();
   }
 
   void losePatience() {

@@ -5,6 +5,7 @@
 #include <slipnav/NavState.h>
 #include <slipnav/Slip.h>
 
+#include <algorithm>
 #include <map>
 
 #include "slipnav/eval/estimate.h"
@@ -19,7 +20,12 @@ class EstimateRecorder {
   void add(const Slip& message);
 
   std::size_t size() const { return estimates_.size(); }
-  Nanoseconds newestStamp() const { return estimates_.empty() ? 0 : estimates_.rbegin()->first; }
+  /// Up to which odometry and nav_state have come; each comes on a way of its own.
+  Nanoseconds newestStamp() const {
+    return estimates_.empty() || stationary_.empty()
+               ? 0
+               : std::min(estimates_.rbegin()->first, stationary_.rbegin()->first);
+  }
 
   EstimateTrack track() const;
 
