@@ -97,7 +97,7 @@ void writeNeesCsv(const std::string& path, const EstimateTrack& estimates, const
     if (!estimate) {
       continue;
     }
-    const Eigen::LLT<Matrix3> factor(estimate->covariance_enu_m2);
+    const Eigen::LLT<Matrix3> factor(estimate->covariance_enu_m2 + sample.covariance_enu_m2);
     if (factor.info() == Eigen::Success) {
       const Vector3 error = estimate->position_enu_m - sample.position_enu_m;
       out << formatSeconds(sample.stamp) << ',' << error.dot(factor.solve(error)) << '\n';

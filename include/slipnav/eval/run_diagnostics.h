@@ -61,7 +61,8 @@ void writeFilterCsv(const std::string& path, const std::vector<FilterRow>& rows)
 void writeWheelTrackCsv(const std::string& path, const PlanarTrack& track);
 /// `slip_forecasts.csv`: t, horizon_s, mean, stddev.
 void writeSlipForecastsCsv(const std::string& path, const std::vector<SlipForecastRow>& rows);
-/// `nees.csv`: t, nees. Of the position, eᵀP⁻¹e with three degrees of freedom, at the epochs of truth.
+/// `nees.csv`: t, nees. Of the position, eᵀ(P + R)⁻¹e with three degrees of freedom and R of truth, at its
+/// epochs.
 void writeNeesCsv(const std::string& path, const EstimateTrack& estimates, const TruthTrack& truth);
 
 }  // namespace slipnav
