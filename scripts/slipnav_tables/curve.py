@@ -36,7 +36,8 @@ def drives_of(terrain, point, options):
 def point_data(outcomes, terrain, point, options):
     drives = drives_of(terrain, point, options)
     errors = figures_of(outcomes, drives, "enu_error_pct")
-    stretches = [stretch for outcome in succeeded(outcomes, drives) for stretch in outcome.stretches]
+    stretches = [stretch for outcome in succeeded(outcomes, drives) for stretch in outcome.stretches
+                 if stretch.after_stop]
     return {
         "label": point[0], "policy": point[1], "threshold_m": point[2], "drives": len(errors),
         "stop_rate_pct": median(figures_of(outcomes, drives, "stop_rate_pct")),

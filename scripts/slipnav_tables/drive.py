@@ -42,10 +42,11 @@ class Drive:
 
 @dataclass(frozen=True)
 class Stretch:
-    """Driving from the end of one stop to the begin of the next, or to the end of the drive."""
+    """Driving between stops, from the begin of the route to the first, or from the last to the end of the drive."""
 
     duration_s: float
     growth_m: float  # largest horizontal length of the change of the error since its begin
+    after_stop: bool
     ended_by_stop: bool
 
 
@@ -88,18 +89,17 @@ def read_columns(path, names):
 
 
 def driving_stretches(timeline):
-    """From the first stop on: what comes before it has no stop to be counted from."""
+    """In their order."""
     time = timeline["t"]
     error = np.stack([timeline["est_" + axis] - timeline["truth_" + axis] for axis in "en"])
     stops = standstills(timeline)
-    rest = np.flatnonzero(timeline["stationary"] < 0.5)
-    end_of_drive = rest[-1] if len(rest) else 0  # the rest at the end is not driving
-    stretches = []
-    for i, (_, begin) in enumerate(stops):
-        ended_by_stop = i + 1 < len(stops)
-        end = stops[i + 1][0] if ended_by_stop else end_of_drive
-        stretches.append(Stretch(float(time[end] - time[begin]), growth(error[:, begin:end + 1]), ended_by_stop))
-    return stretches
+    driving = np.flatnonzero(timeline["stationary"] < 0.5)
+    if not len(driving):
+        raise ValueError("the rover did not drive")
+    begins = [driving[0]] + [end for _, end in stops]
+    ends = [begin for begin, _ in stops] + [driving[-1]]  # the rest at the end is not driving
+    return [Stretch(float(time[end] - time[begin]), growth(error[:, begin:end + 1]), i > 0, i < len(stops))
+            for i, (begin, end) in enumerate(zip(begins, ends))]
 
 
 def growth(error):

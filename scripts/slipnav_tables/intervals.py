@@ -36,12 +36,11 @@ def forecast_interval(outcome):
 
 
 def real_interval(outcome):
-    """The median interval of a drive; where no interval is complete, the longest drive without a stop."""
-    complete = [stretch.duration_s for stretch in outcome.stretches if stretch.ended_by_stop]
+    """The median interval between stops of a drive; where no interval is complete, the longest drive without a stop."""
+    complete = [stretch.duration_s for stretch in outcome.stretches if stretch.after_stop and stretch.ended_by_stop]
     if complete:
         return median(complete), False
-    unfinished = [stretch.duration_s for stretch in outcome.stretches]
-    return max(unfinished + ([] if outcome.metrics["stop_count"] else [outcome.metrics["duration_s"]])), True
+    return max(stretch.duration_s for stretch in outcome.stretches), True
 
 
 KINDS = (

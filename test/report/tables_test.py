@@ -69,8 +69,7 @@ def timeline(stationary, east_error):
 
 
 def outcome(stop_rate_pct=0.0, enu_error_pct=0.0, stretches=(), time_to_stop_s=None):
-    metrics = {"stop_rate_pct": stop_rate_pct, "stop_count": len(stretches), "enu_error_pct": enu_error_pct,
-               "duration_s": 100.0}
+    metrics = {"stop_rate_pct": stop_rate_pct, "stop_count": len(stretches), "enu_error_pct": enu_error_pct}
     return drive.Outcome(metrics, list(stretches), time_to_stop_s)
 
 
@@ -141,8 +140,8 @@ class ReadingTest(unittest.TestCase):
     def test_stretches_of_driving(self):
         stretches = drive.driving_stretches(timeline([0, 0, 1, 1, 0, 0, 0, 1, 1, 0, 0, 1],
                                                      [9, 9, 1, 1, 1, 4, 2, 2, 2, 2, 0, 5]))
-        self.assertEqual([(stretch.duration_s, stretch.growth_m, stretch.ended_by_stop) for stretch in stretches],
-                         [(3.0, 3.0, True), (1.0, 2.0, False)])
+        self.assertEqual(stretches, [drive.Stretch(2.0, 8.0, False, True), drive.Stretch(3.0, 3.0, True, True),
+                                     drive.Stretch(1.0, 2.0, True, False)])
 
     def test_probe_takes_the_first_forecast_that_is_late_enough(self):
         line = timeline([0, 1, 1, 0, 0, 0, 0, 1, 1, 0], np.zeros(10))
@@ -155,11 +154,10 @@ class ReadingTest(unittest.TestCase):
                 drive.probed_time_to_stop(line, made, after_s)
 
     def test_real_interval_of_a_drive(self):
-        complete = [drive.Stretch(seconds, 0.1, True) for seconds in (20.0, 30.0, 70.0)]
-        unfinished = drive.Stretch(55.0, 0.1, False)
-        self.assertEqual(intervals.real_interval(outcome(stretches=complete + [unfinished])), (30.0, False))
-        self.assertEqual(intervals.real_interval(outcome(stretches=[unfinished])), (55.0, True))
-        self.assertEqual(intervals.real_interval(outcome()), (100.0, True))
+        first, last = drive.Stretch(90.0, 0.1, False, True), drive.Stretch(55.0, 0.1, True, False)
+        complete = [drive.Stretch(seconds, 0.1, True, True) for seconds in (20.0, 30.0, 70.0)]
+        self.assertEqual(intervals.real_interval(outcome(stretches=[first] + complete + [last])), (30.0, False))
+        self.assertEqual(intervals.real_interval(outcome(stretches=[first, last])), (90.0, True))
 
     def test_forecast_beyond_the_horizon_counts_as_the_horizon(self):
         self.assertEqual(intervals.forecast_interval(outcome(time_to_stop_s=np.inf)), (intervals.HORIZON_S, True))
@@ -172,8 +170,8 @@ class CurveTest(unittest.TestCase):
         point = curve.AUTONOMOUS_POINTS[0]
         drives = curve.drives_of("rough", point, options)
         threshold = point[2]
-        stretches = [drive.Stretch(10.0, threshold + 0.1, True), drive.Stretch(10.0, threshold - 0.1, True),
-                     drive.Stretch(10.0, 0.1, False)]
+        stretches = [drive.Stretch(10.0, threshold + 0.2, False, True), drive.Stretch(10.0, threshold + 0.1, True, True),
+                     drive.Stretch(10.0, threshold - 0.1, True, True), drive.Stretch(10.0, 0.1, True, False)]
         outcomes = dict(zip(drives, (outcome(2.0, 0.4, stretches), outcome(4.0, 0.6))))
         data = curve.point_data(outcomes, "rough", point, options)
         self.assertEqual((data["stretches"], data["stretches_beyond_threshold"]), (3, 1))
@@ -274,7 +272,7 @@ class ProgramTest(unittest.TestCase):
         for entry in drives:
             self.assertAlmostEqual(entry["metrics"]["distance_m"], entry["distance_m"], delta=6.0)
             self.assertEqual(len(entry["stretches"]),
-                             entry["metrics"]["stop_count"] if entry["policy"] == paper.AUTONOMOUS else 0)
+                             entry["metrics"]["stop_count"] + 1 if entry["policy"] == paper.AUTONOMOUS else 0)
         self.assertGreater(drives[0]["metrics"]["stop_count"], 10)
         thresholds = {(entry["policy"], entry["threshold_m"]) for entry in drives}
         self.assertEqual(thresholds, {(paper.PERIODIC, None), (paper.AUTONOMOUS, accuracy.ASSUMED_THRESHOLD_M)})
