@@ -14,6 +14,7 @@ InsEngine::InsEngine(const Planet& planet, const ImuInputParams& params)
     : strapdown_(planet),
       screen_(params),
       instantaneous_(params.sampling == "instantaneous"),
+      gap_factor_(params.gap_factor),
       max_bridged_gap_s_(params.max_bridged_gap_s),
       ring_(kInitialRing) {}
 
@@ -92,8 +93,12 @@ std::optional<InsStep> InsEngine::step() {
   Slot& current = slot(next_);
   const NavigationState& start = is_first ? initial_ : slot(next_ - 1).state;
   ImuInterval interval = current.interval;
-  if (is_first) {  // the initial state may lie inside the interval of the sample that follows it
-    interval.duration_s = toSeconds(current.end - start.stamp);
+  if (is_first) {  // the initial state may lie inside the interval of the sample that follows it, or before it
+    const double duration_s = toSeconds(current.end - start.stamp);
+    if (duration_s > gap_factor_ * interval.duration_s) {
+      current.gap_s = duration_s - interval.duration_s;
+    }
+    interval.duration_s = duration_s;
   }
   if (current.gap_s > max_bridged_gap_s_) {
     interval = unchanging(start, interval.duration_s);

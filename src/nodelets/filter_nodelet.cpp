@@ -71,6 +71,7 @@ class FilterNodelet : public CoreNodelet {
       return;
     }
     started_ = true;
+    has_steps_ = false;
     const InitialState initial = fromMessage(*message);
     gate_.restart();
     health_->restart();
@@ -91,7 +92,7 @@ class FilterNodelet : public CoreNodelet {
 
   /// The estimate ends; a new start is looked for.
   void end() {
-    started_ = false;
+    started_ = has_steps_ = false;
     engine_->reset();
     wheel_sessions_.pause();
   }
@@ -104,11 +105,12 @@ class FilterNodelet : public CoreNodelet {
     if (!started_ || message->start != start_) {
       return;
     }
+    has_steps_ = true;
     const double now_s = now();
     for (const InsInterval& interval : message->steps) {
       gate_.push(fromMessage(interval, message->epoch), now_s);
+      look_ahead_.addStep(toNanoseconds(interval.state.stamp));
     }
-    look_ahead_.addStep(toNanoseconds(message->steps.back().state.stamp));
     proceed();
   }
 
@@ -145,7 +147,7 @@ class FilterNodelet : public CoreNodelet {
 
   /// Works off what has become certain, and tells the mechanisation.
   void proceed() {
-    if (!started_) {
+    if (!has_steps_) {  // the mechanisation may be loaded later
       return;
     }
     gate_.release(engine_->wheelsKnownUntil(), now(), [this](const InsStep& step) { engine_->push(step); });
@@ -195,8 +197,9 @@ class FilterNodelet : public CoreNodelet {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
-    status.summary(started_ && wheel_messages_ > 0 ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+    status.summary(has_steps_ && wheel_messages_ > 0 ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    !started_             ? "waiting for the initial state"
+                   : !has_steps_         ? "waiting for the mechanisation"
                    : wheel_messages_ > 0 ? "running"
                                          : "no wheel samples");
     status.add("wheel messages", wheel_messages_);
@@ -228,6 +231,7 @@ class FilterNodelet : public CoreNodelet {
   WheelSessions wheel_sessions_;
   std::vector<InsSteps::ConstPtr> early_steps_;
   bool started_ = false;
+  bool has_steps_ = false;   ///< since the start
   std::uint32_t start_ = 0;  ///< count of the initial state in use
   std::uint64_t wheel_messages_ = 0;
   std::uint64_t rejected_ = 0;

@@ -81,12 +81,16 @@ class InsNodelet : public CoreNodelet {
     last_step_ = toNanoseconds(start_->state.stamp);
     run_until_ = last_step_ + 1;
     start_.reset();
+    is_answered_ = false;
+    unanswered_.reset();
   }
 
   void onCorrection(const FilterCorrection::ConstPtr& message) {
     if (message->start != start_count_ || !engine_->isInitialised()) {
       return;
     }
+    is_answered_ = true;
+    unanswered_.reset();
     if (message->corrects) {
       if (!engine_->correct(fromMessage(*message))) {
         NODELET_ERROR("correction for step %lu, which is not there any more",
@@ -114,6 +118,14 @@ class InsNodelet : public CoreNodelet {
     if (!batch->steps.empty()) {
       batch->start = start_count_;
       steps_publisher_.publish(boost::shared_ptr<const InsSteps>(batch));
+      unanswered_ = is_answered_ ? nullptr : batch;
+    }
+  }
+
+  /// The filter may be loaded later.
+  void onTick() override {
+    if (unanswered_) {
+      steps_publisher_.publish(unanswered_);
     }
   }
 
@@ -146,8 +158,10 @@ class InsNodelet : public CoreNodelet {
   StartState::ConstPtr start_;     ///< not yet used
   std::uint32_t session_ = 0;      ///< restarts of the IMU's clock
   std::uint32_t start_count_ = 0;  ///< of the initial state in use
-  Nanoseconds last_step_ = 0;      ///< end of the newest step
-  Nanoseconds run_until_ = 0;      ///< what the filter has use for
+  bool is_answered_ = false;       ///< the filter has the steps from this initial state on
+  boost::shared_ptr<const InsSteps> unanswered_;
+  Nanoseconds last_step_ = 0;  ///< end of the newest step
+  Nanoseconds run_until_ = 0;  ///< what the filter has use for
   std::uint64_t samples_ = 0;
   std::uint64_t gaps_ = 0;
   std::uint64_t rejected_ = 0;

@@ -5,18 +5,29 @@ namespace slipnav {
 void LookAhead::restart(Nanoseconds processed) {
   wheels_.clear();
   processed_ = processed;
-  newest_step_ = processed;
+  steps_.clear();
   told_ = 0;
+}
+
+void LookAhead::addStep(Nanoseconds end) {
+  if (end > newestStep()) {
+    steps_.push_back(end);
+  }
 }
 
 void LookAhead::processed(Nanoseconds end) {
   processed_ = end;
   wheels_.erase(wheels_.begin(), wheels_.upper_bound(end));
+  while (!steps_.empty() && steps_.front() <= end) {
+    steps_.pop_front();
+  }
 }
 
 Nanoseconds LookAhead::runUntil() const {
-  const bool all_processed = newest_step_ <= processed_;
-  return all_processed && !wheels_.empty() ? *wheels_.begin() : processed_ + window_;
+  if (steps_.empty()) {
+    return wheels_.empty() ? processed_ + window_ : *wheels_.begin();
+  }
+  return steps_.front() + window_;  // after a gap this step alone may be longer than the window
 }
 
 }  // namespace slipnav

@@ -101,6 +101,18 @@ TEST(LookAhead, GoesFarEnoughToTellThatWheelsAreSilent) {
   EXPECT_GT(ahead.runUntil(), 11 * kSecond);
 }
 
+TEST(LookAhead, GoesBeyondAStepThatIsLongerThanItsWindow) {
+  LookAhead ahead(1.0);
+  ahead.restart(10 * kSecond);
+  ahead.told(ahead.runUntil());
+  ahead.addStep(20 * kSecond);
+  EXPECT_TRUE(ahead.isStalled());
+  EXPECT_GT(ahead.runUntil(), 21 * kSecond);
+  ahead.processed(20 * kSecond);
+  ahead.addStep(20 * kSecond);  // comes again
+  EXPECT_EQ(ahead.runUntil(), 22 * kSecond);
+}
+
 WheelMotion wheelsAt(Nanoseconds stamp) {
   WheelMotion wheels;
   wheels.stamp = stamp;

@@ -216,6 +216,21 @@ TEST(InsEngine, VerdictsAreThoseOfTheScreen) {
   EXPECT_EQ(drain(engine).size(), 59U);
 }
 
+/// What lies between an initial state and samples that begin later is a gap like any other.
+TEST(InsEngine, StartsLongBeforeTheSamples) {
+  const std::vector<ImuSample> imu = samples(5);
+  InsEngine engine(earth(), {});
+  for (const ImuSample& sample : imu) {
+    engine.push(sample);
+  }
+  engine.initialise(stateAt(kStart - 20 * kPeriod));
+  const std::vector<InsStep> steps = drain(engine);
+  ASSERT_EQ(steps.size(), 4U);
+  EXPECT_EQ(steps[0].state.stamp, imu[1].stamp);
+  EXPECT_NEAR(steps[0].gap_s, 20.0 * toSeconds(kPeriod), 1e-9);
+  EXPECT_EQ(steps[1].gap_s, 0.0);
+}
+
 /// Across a gap the samples at its two ends are all that is known.
 TEST(InsEngine, BridgesAGapByTheMeanOfItsEnds) {
   const std::vector<ImuSample> imu = samples(60);

@@ -75,6 +75,7 @@ class InsEngine {
   Strapdown strapdown_;
   ImuScreen screen_;
   bool instantaneous_;
+  double gap_factor_;
   double max_bridged_gap_s_;
   std::vector<Slot> ring_;   ///< power of two in size; holds [first_, end_)
   std::uint64_t first_ = 0;  ///< oldest buffered sequence

@@ -5,6 +5,7 @@
 /// sample is known, nothing beyond it is wanted. Otherwise the mechanisation may run ahead until the sample comes, or
 /// counts as missing.
 
+#include <deque>
 #include <set>
 
 #include "slipnav/types.h"
@@ -18,27 +19,30 @@ class LookAhead {
   /// A new start; nothing is known.
   void restart(Nanoseconds processed);
   void addWheels(Nanoseconds stamp) { wheels_.insert(stamp); }
-  void addStep(Nanoseconds end) { newest_step_ = end; }
+  /// A step that was there before is not noted again.
+  void addStep(Nanoseconds end);
   /// The filter has come to the end of a step.
   void processed(Nanoseconds end);
   /// The steps that were not processed are void.
-  void forgetSteps() { newest_step_ = processed_; }
+  void forgetSteps() { steps_.clear(); }
 
   /// No step is wanted beyond the first one that ends at or after this.
   Nanoseconds runUntil() const;
 
   /// Whether the mechanisation has used up what it was told last and is to be told anew.
-  bool isStalled() const { return newest_step_ >= told_ && runUntil() > told_; }
+  bool isStalled() const { return newestStep() >= told_ && runUntil() > told_; }
   void told(Nanoseconds run_until) { told_ = run_until; }
 
  private:
   static constexpr double kMargin_s = 1.0;
 
+  Nanoseconds newestStep() const { return steps_.empty() ? processed_ : steps_.back(); }
+
   Nanoseconds window_;
   Nanoseconds processed_ = 0;
-  Nanoseconds newest_step_ = 0;
   Nanoseconds told_ = 0;
-  std::set<Nanoseconds> wheels_;  ///< later than what is processed
+  std::deque<Nanoseconds> steps_;  ///< ends of those that are not processed
+  std::set<Nanoseconds> wheels_;   ///< later than what is processed
 };
 
 }  // namespace slipnav
