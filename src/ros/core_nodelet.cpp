@@ -26,7 +26,9 @@ void CoreNodelet::onInit() {
       begun_ = true;
     }
     subscribe(config_);
-    updater_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(), getPrivateNodeHandle(), getName());
+    // The updater has one name for its topic; only its own node handle can call it something else.
+    const ros::NodeHandle node(getNodeHandle(), "", {{"/diagnostics", config_.topics.diagnostics}});
+    updater_ = std::make_unique<diagnostic_updater::Updater>(node, getPrivateNodeHandle(), getName());
     updater_->setHardwareID("none");
     updater_->add(getName(), [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
     tick_timer_ = getNodeHandle().createWallTimer(ros::WallDuration(kTickInterval_s),

@@ -118,11 +118,12 @@ TEST_F(SupervisorTest, AnActiveOneStopsTheRoverAndLetsTheOperatorStopItAtOnce) {
 
 TEST_F(SupervisorTest, NothingIsEmittedForAnOperatorWhoIsSilent) {
   node_.setParam("/silent/slipnav/stop/estimate_timeout_s", 60.0);
+  node_.setParam("/silent/slipnav/topics/diagnostics", "health");
   start("/silent", "active");
   ASSERT_TRUE(waitUntil([this] { return commands_.getNumSubscribers() > 0; }));
   EXPECT_EQ(command(0.5), 0.5);
   std::string diagnosis;
-  listen<diagnostic_msgs::DiagnosticArray>("/diagnostics", [&diagnosis](const auto& message) {
+  listen<diagnostic_msgs::DiagnosticArray>("health", [&diagnosis](const auto& message) {
     for (const auto& status : message->status) {
       diagnosis = status.name.find("/silent/") != std::string::npos ? status.message : diagnosis;
     }

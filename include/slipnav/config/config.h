@@ -29,6 +29,7 @@ struct ImuConfig {
   void visit(ParameterVisitor& v);
 };
 
+/// All parameters, block by block; meaning, unit and range of each stand in the visit() of its block.
 struct Config {
   std::string planet = "earth";
   TopicNames topics;

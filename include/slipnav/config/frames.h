@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// Block `frames`: what TF and the headers of messages call each frame.
 struct FrameNames {
   std::string map = "map";
   std::string odom = "odom";

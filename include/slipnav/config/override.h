@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// One setting, as a path of block names and a value.
 struct Override {
   std::vector<std::string> path;  ///< block names, then the key
   std::string value;              ///< YAML, for example "3", "[wheel, zupt]"

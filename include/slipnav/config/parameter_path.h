@@ -6,6 +6,7 @@
 
 namespace slipnav {
 
+/// A stack of block names; what is entered is left in the reverse order.
 class ParameterPath {
  public:
   void enter(const std::string& name) { prefixes_.push_back(key(name)); }

@@ -18,10 +18,12 @@ struct Range {
   double max = std::numeric_limits<double>::infinity();
 };
 
+/// What a struct calls in its visit(): one function per kind of field.
 class ParameterVisitor {
  public:
   virtual ~ParameterVisitor() = default;
 
+  /// One field of each kind: its key in YAML, the value, what it may be, and in a phrase what it means.
   virtual void number(const char* name, double& value, Range range, const char* meaning) = 0;
   virtual void integer(const char* name, int& value, Range range, const char* meaning) = 0;
   virtual void flag(const char* name, bool& value, const char* meaning) = 0;
@@ -59,6 +61,7 @@ class ParameterVisitor {
   }
 
  protected:
+  /// @return whether the fields of the block are to be visited; leaveGroup() follows only then
   virtual bool enterGroup(const char* name, const char* meaning) = 0;
   virtual void leaveGroup() = 0;
   /// @return the length of the list that replaces the present one; nothing to leave that as it is

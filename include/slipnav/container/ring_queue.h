@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// @tparam T default-constructible and copyable
 template <class T>
 class RingQueue {
  public:

@@ -9,6 +9,7 @@
 
 namespace slipnav {
 
+/// The map frame of one start. Immutable.
 class LocalFrame {
  public:
   LocalFrame(const Planet& planet, const Geodetic& origin);

@@ -15,11 +15,13 @@ struct Geodetic {
   double height_m = 0.0;
 };
 
+/// Functions of latitude and height on one planet. Immutable; latitudes are geodetic [rad].
 class Planet {
  public:
   /// @param name "earth" (WGS84), "mars" or "moon". Throws std::invalid_argument that names anything else.
   static Planet byName(const std::string& name);
 
+  /// Any other planet. @param gm_m3_per_s2 gravitational constant times mass; @param rotation_rate_radps sidereal
   Planet(std::string name, double equatorial_radius_m, double gm_m3_per_s2, double rotation_rate_radps,
          double flattening);
 

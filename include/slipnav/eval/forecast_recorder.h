@@ -11,6 +11,7 @@
 
 namespace slipnav {
 
+/// Owns a Forecaster and one row per forecast and whole second of its horizon.
 class ForecastRecorder {
  public:
   using Sink = std::function<void(const ErrorOutlook&)>;

@@ -27,6 +27,7 @@ struct RunCounters {
   std::optional<double> realtime_factor;  ///< recorded time over wall time
 };
 
+/// What there is to judge of one drive.
 struct MetricsInput {
   EstimateTrack estimates;  ///< without the initialisation phase
   TruthTrack truth;         ///< may be empty
@@ -35,6 +36,7 @@ struct MetricsInput {
   RunCounters counters;
 };
 
+/// How it is judged.
 struct MetricsOptions {
   DistanceOptions distance;
   /// Judge the errors by P + R with R the covariance that truth has of itself, instead of P alone: what is compared

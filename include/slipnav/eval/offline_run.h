@@ -16,6 +16,7 @@
 
 namespace slipnav {
 
+/// Takes samples in order of stamp, keeps what the pipeline makes of them, and reports when the drive is over.
 class OfflineRun {
  public:
   /// @param with_baselines also run the pipeline without zero updates, for no_zupt_error_pct

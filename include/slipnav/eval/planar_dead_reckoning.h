@@ -10,6 +10,7 @@
 
 namespace slipnav {
 
+/// Pose in the plane, in the map frame.
 struct PlanarSample {
   Nanoseconds stamp = 0;
   double east_m = 0.0;
@@ -19,6 +20,7 @@ struct PlanarSample {
 
 using PlanarTrack = std::vector<PlanarSample>;
 
+/// When the rover counts as standing at the beginning.
 struct PlanarOptions {
   double standstill_speed_mps = 0.01;  ///< wheels slower than this stand still
   double min_standstill_s = 2.0;       ///< the gyro bias is taken from an initial standstill at least this long

@@ -16,6 +16,7 @@ namespace slipnav {
 /// RTKLIB's quality flag Q.
 enum class RtklibQuality { kFix = 1, kFloat = 2, kSbas = 3, kDgps = 4, kSingle = 5, kPpp = 6, kDeadReckoning = 7 };
 
+/// One row of a solution file.
 struct RtklibSolution {
   GnssFix fix;  ///< stamp is UNIX (UTC) time
   RtklibQuality quality = RtklibQuality::kSingle;

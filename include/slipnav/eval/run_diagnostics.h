@@ -35,6 +35,7 @@ struct SlipForecastRow {
   double stddev = 0.0;
 };
 
+/// The rows of all files of one run.
 struct RunDiagnostics {
   std::vector<FilterRow> filter;
   PlanarTrack wheel_only;

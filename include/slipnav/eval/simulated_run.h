@@ -6,6 +6,7 @@
 
 namespace slipnav {
 
+/// Feeds the intervals of a simulated drive to an OfflineRun; truth for the metrics are the simulated fixes.
 class SimulatedRun {
  public:
   explicit SimulatedRun(const Config& config);

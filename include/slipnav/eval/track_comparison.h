@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// How far two tracks are apart where they have the same stamps.
 struct TrackComparison {
   std::size_t common = 0;  ///< epochs that both have
   double largest_m = 0.0;  ///< largest distance between them there

@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// Block `truth`.
 struct TruthParams {
   std::string align = "auto";
   double heading_distance_m = 30.0;

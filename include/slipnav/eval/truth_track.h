@@ -10,6 +10,7 @@
 
 namespace slipnav {
 
+/// The true pose at one instant, in the map frame or in a frame of the truth's own.
 struct TruthSample {
   Nanoseconds stamp = 0;
   Vector3 position_enu_m = Vector3::Zero();
@@ -17,6 +18,7 @@ struct TruthSample {
   Matrix3 covariance_enu_m2 = Matrix3::Zero();            ///< of the position, zero when unknown or exact
 };
 
+/// Samples in order of stamp, with interpolation between neighbours.
 class TruthTrack {
  public:
   /// Longest interval between neighbours that is interpolated [s].

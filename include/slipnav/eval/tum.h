@@ -12,6 +12,7 @@
 
 namespace slipnav {
 
+/// One line: pose of base_link in the map frame.
 struct TumPose {
   Nanoseconds stamp = 0;
   Vector3 position_enu_m = Vector3::Zero();

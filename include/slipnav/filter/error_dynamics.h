@@ -47,13 +47,15 @@ struct ErrorTransition {
   ErrorCovariance matrix() const;
 };
 
+/// F, Φ and Q of the 22 error states for one planet, IMU and vehicle. Immutable.
 class ErrorDynamics {
  public:
   ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, const VehicleModelParams& vehicle);
 
   /// F of the navigation rows, continuous time: d/dt δx = F δx (Groves 14.63 with errors of the biases counted as
   /// estimate − truth, hence −C in the bias columns).
-  /// @param f_ib_b, omega_ib_b bias-free mean specific force and rate of the step
+  /// @param middle state half-way through the step
+  /// @param f_ib_b bias-free mean specific force of the step [m/s²]
   Eigen::Matrix<double, 9, kNavStates> systemMatrix(const NavigationState& middle, const Vector3& f_ib_b) const;
 
   /// Φ to second order and the noise of a step of `duration_s`, linearised at its middle.

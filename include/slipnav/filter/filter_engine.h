@@ -24,6 +24,7 @@
 
 namespace slipnav {
 
+/// Single-threaded; nothing is allocated once its queues have their size.
 class FilterEngine {
  public:
   using EstimateSink = std::function<void(const Estimate&, const ErrorCovariance&)>;
@@ -57,6 +58,7 @@ class FilterEngine {
   /// to reach the mechanisation, whose new steps come back by push().
   std::optional<Correction> advance(const EstimateSink& sink);
 
+  /// At the end of the step that was processed last.
   const ErrorCovariance& covariance() const { return P_; }
   const NavigationState& state() const { return state_; }
   const VehicleState& vehicle() const { return vehicle_; }

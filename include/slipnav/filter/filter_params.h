@@ -15,6 +15,7 @@
 
 namespace slipnav {
 
+/// Block `filter`.
 struct FilterParams {
   std::vector<std::string> updates = {"wheel", "nonholonomic", "zupt", "zaru"};
   double gate_alpha = 0.001;
@@ -31,6 +32,7 @@ struct FilterParams {
   bool uses(const std::string& update) const;
 };
 
+/// The blocks that the filter depends on, and the lever arms that follow from the mounts.
 struct FilterSetup {
   FilterParams filter;
   ImuNoiseParams imu;

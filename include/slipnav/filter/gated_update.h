@@ -13,6 +13,7 @@ namespace slipnav {
 /// Up to four measurements of one instant.
 class MeasurementSet {
  public:
+  /// A measurement and the name under which it is counted.
   struct Block {
     Component component = kForwardSpeed;
     Measurement measurement{1};
@@ -27,6 +28,7 @@ class MeasurementSet {
   std::size_t size_ = 0;
 };
 
+/// Gates by chi-square quantiles, and keeps count of what passed and what did not.
 class GatedUpdate {
  public:
   explicit GatedUpdate(const FilterParams& params);

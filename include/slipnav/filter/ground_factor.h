@@ -10,6 +10,7 @@
 
 namespace slipnav {
 
+/// Block `filter.ground`.
 struct GroundFactorParams {
   double gain = 0.02;         ///< per sample
   double least_std = 0.1;     ///< smallest factor on standard deviations; 1: the factor is off
@@ -17,6 +18,7 @@ struct GroundFactorParams {
   void visit(ParameterVisitor& v);
 };
 
+/// One factor, of one measurement.
 class GroundFactor {
  public:
   explicit GroundFactor(const GroundFactorParams& params) : params_(params) {}

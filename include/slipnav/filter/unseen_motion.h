@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// Widens the covariance at the end of a gap, and once more when the filter has settled after it.
 class UnseenMotion {
  public:
   UnseenMotion(const Planet& planet, const FilterParams& params) : planet_(planet), params_(params) {}

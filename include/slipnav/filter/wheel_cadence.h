@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// Running mean of the interval between wheel samples.
 class WheelCadence {
  public:
   /// @param longest_s a longer interval is an outage, from which nothing is learned

@@ -41,6 +41,7 @@ struct DriveStep {
   double side_slip_factor = 1.0;             ///< likewise of side slip
 };
 
+/// Carries the filter's covariance and that of the real error side by side, along the way driven and the way ahead.
 class CovarianceForecast {
  public:
   /// @param step_s of all steps; @param wheel_interval_s between the wheel samples that are averaged over a step

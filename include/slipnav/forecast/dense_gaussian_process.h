@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// Regression with any kernel; matrices are kept between calls and grow with the window.
 class DenseGaussianProcess : public GaussianProcess {
  public:
   /// @param latent the kernel of f; its parameters are overwritten by those of each call

@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// One forecast of the horizontal position error.
 struct ErrorOutlook {
   Nanoseconds stamp = 0;                   ///< when the forecast begins
   std::vector<double> times_s;             ///< ahead of the stamp, ascending

@@ -9,6 +9,7 @@
 
 namespace slipnav {
 
+/// Block `forecast`.
 struct ForecastParams {
   /// The slip model that forecasts best, see doc/forecast.md; a model on its own is the paper's.
   ForecastParams() {

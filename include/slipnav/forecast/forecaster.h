@@ -20,6 +20,7 @@
 
 namespace slipnav {
 
+/// One forecast with everything that it was made from.
 struct Forecast {
   SlipFit fit;
   SlipPrediction slip;          ///< times ahead of the stamp
@@ -28,6 +29,7 @@ struct Forecast {
   ErrorOutlook error;
 };
 
+/// Takes every estimate, and makes a forecast when one is due.
 class Forecaster {
  public:
   /// Throws std::invalid_argument naming a parameter that is out of range.

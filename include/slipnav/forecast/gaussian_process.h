@@ -18,6 +18,7 @@ struct LatentPrediction {
   Eigen::VectorXd variance;
 };
 
+/// Regression on one set of samples: likelihood of hyperparameters, and prediction with those chosen.
 class GaussianProcess {
  public:
   virtual ~GaussianProcess() = default;

@@ -14,6 +14,7 @@
 
 namespace slipnav {
 
+/// Part of the block `forecast`: which model, and how it is fitted.
 struct SlipModelParameters {
   std::string model = "paper";      ///< a name of latentModelNames()
   std::string inference = "dense";  ///< dense: exact, cubic in samples; state_space: linear, RBF approximated
@@ -26,6 +27,7 @@ struct SlipModelParameters {
   void visit(ParameterVisitor& v);
 };
 
+/// Fits a window anew on each call, with the hyperparameters of the last one as a start.
 class GaussianProcessSlipModel : public SlipModel {
  public:
   /// Throws std::invalid_argument for an unknown model or kind of inference.

@@ -22,17 +22,20 @@ struct LogPrior {
   double typical_step = 1.0;  ///< how well the samples tell it, roughly: the unit in which the optimiser walks
 };
 
+/// When a local fit ends.
 struct FitSettings {
   int max_evaluations = 60;
   double tolerance = 1e-4;  ///< of the objective, a log probability, between two steps
 };
 
+/// How it ended.
 enum class FitOutcome {
   kConverged,
   kBudgetSpent,  ///< max_evaluations reached; the best point met is returned
   kFailed        ///< no finite likelihood, or the optimiser broke off; the start is returned
 };
 
+/// What one local fit has found.
 struct HyperparameterFit {
   FitOutcome outcome = FitOutcome::kFailed;
   Eigen::VectorXd log_parameters;

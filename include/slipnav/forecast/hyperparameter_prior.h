@@ -15,6 +15,7 @@
 
 namespace slipnav {
 
+/// Block `forecast.prior`.
 struct PriorParameters {
   double min_length_scale_samples = 3.0;  ///< shorter ones cannot be told from noise, only interpolate
   double max_length_scale_spans = 0.5;    ///< longer ones are trends of the window, not slip that comes and goes

@@ -16,6 +16,7 @@
 
 namespace slipnav {
 
+/// One covariance function, or an expression of several.
 class Kernel {
  public:
   using In = const Eigen::Ref<const Eigen::VectorXd>&;

@@ -2,7 +2,7 @@
 /// The Gaussian process models of slip by name: sums of a few components, each a correlation shape with a variance.
 ///
 /// One description serves both implementations of the regression: makeKernel() for the dense one, the transition of
-/// markov_component.h for the one in state-space form. doc/slip_gaussian_process.md has the equations.
+/// markov_shape.h for the one in state-space form. doc/slip_gaussian_process.md has the equations.
 
 #include <Eigen/Core>
 #include <string>
@@ -12,6 +12,7 @@
 
 namespace slipnav {
 
+/// Shape of a component's correlation over time.
 enum class Correlation { kConstant, kRbf, kMatern12, kMatern32, kMatern52, kMatern72 };
 
 /// What a component is there for; decides its priors and its name prefix.

@@ -16,10 +16,12 @@
 
 namespace slipnav {
 
+/// One shape: its matrices, and the transition over a time. Immutable.
 class MarkovShape {
  public:
   explicit MarkovShape(Correlation correlation);
 
+  /// Number of states.
   Eigen::Index dimension() const { return output_.size(); }
   /// F, per length scale.
   const Eigen::MatrixXd& drift() const { return drift_; }

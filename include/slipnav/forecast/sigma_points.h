@@ -14,6 +14,7 @@
 
 namespace slipnav {
 
+/// Whose equations hold.
 enum class SigmaPointForm {
   /// Points μ, μ ± cσ with weights 1 − 1/c², 1/(2c²), 1/(2c²): exact on a linear map; variance in (m/s)².
   kUnscented,
@@ -22,6 +23,7 @@ enum class SigmaPointForm {
   kPaper,
 };
 
+/// Block `forecast.sigma_points`.
 struct SigmaPointParameters {
   std::string form = "unscented";      ///< unscented or paper
   double spread = 1.7320508075688772;  ///< c, at least 1; √3 matches the fourth moment of a Gaussian
@@ -33,6 +35,7 @@ struct SigmaPointParameters {
 /// rω for one slip ratio in [−1, 1) [m/s].
 double wheelSpeedFromSlip(double speed_mps, double slip);
 
+/// Circumferential speed of the wheels at the slip predicted.
 struct WheelSpeedPrediction {
   double mean_mps = 0.0;
   double variance = 0.0;  ///< (m/s)² for the unscented form
@@ -41,12 +44,14 @@ struct WheelSpeedPrediction {
   double sensitivity_mps = 0.0;
 };
 
+/// Carries mean and deviation of slip through the relation above. Immutable.
 class SigmaPoints {
  public:
   /// Throws std::invalid_argument naming a parameter that is out of range.
   explicit SigmaPoints(const SigmaPointParameters& parameters);
 
-  /// @param speed_mps speed over ground, @param slip_mean, @param slip_stddev of the predicted slip, not negative
+  /// @param speed_mps over ground
+  /// @param slip_mean,slip_stddev of the predicted slip; the deviation is not negative
   WheelSpeedPrediction predict(double speed_mps, double slip_mean, double slip_stddev) const;
 
  private:

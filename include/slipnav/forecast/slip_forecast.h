@@ -12,6 +12,7 @@ namespace slipnav {
 /// Step of the predicted times [s].
 inline constexpr double kSlipForecastStep_s = 0.1;
 
+/// What `forecast` writes.
 struct SlipForecastResult {
   std::string model;
   SlipFit fit;

@@ -10,6 +10,7 @@
 
 namespace slipnav {
 
+/// What has become of a window.
 enum class SlipFitStatus {
   kConverged,            ///< hyperparameters fitted
   kNotConverged,         ///< out of evaluations; the best hyperparameters met are used
@@ -27,6 +28,7 @@ const char* toString(SlipFitStatus status);
 /// Whether the window was taken. After a refused one the model is as it was before.
 bool isAccepted(SlipFitStatus status);
 
+/// Report on one window.
 struct SlipFit {
   SlipFitStatus status = SlipFitStatus::kTooFewSamples;
   int samples = 0;   ///< used
@@ -48,6 +50,7 @@ struct SlipPrediction {
   Eigen::VectorXd stddev;
 };
 
+/// Holds the last window taken; predictions are made from it.
 class SlipModel {
  public:
   virtual ~SlipModel() = default;

@@ -16,6 +16,7 @@ struct SlipSamples {
   std::optional<double> origin_s;
 };
 
+/// The usable samples of a window, with times since its origin.
 struct SlipWindow {
   double origin_s = 0.0;
   double interval_s = 0.0;  ///< median time between samples

@@ -19,6 +19,7 @@ namespace slipnav {
 
 class StateSpaceFilter;
 
+/// Regression with the components of latent_model.h.
 class StateSpaceGaussianProcess : public GaussianProcess {
  public:
   /// Throws std::invalid_argument when the components have no or more than eight states together.

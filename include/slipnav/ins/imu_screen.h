@@ -10,6 +10,7 @@
 
 namespace slipnav {
 
+/// Block `imu.input`.
 struct ImuInputParams {
   std::string sampling = "mean";
   double max_specific_force_mps2 = 200.0;
@@ -20,6 +21,7 @@ struct ImuInputParams {
   void visit(ParameterVisitor& v);
 };
 
+/// What is to become of a sample.
 enum class ImuVerdict {
   kAccepted,
   kAfterGap,      ///< accepted; samples are missing before it
@@ -40,8 +42,10 @@ constexpr bool isAccepted(ImuVerdict verdict) {
 /// The verdict in words, "" for an accepted sample.
 const char* complaintOf(ImuVerdict verdict);
 
+/// Judges each sample by those before it.
 class ImuScreen {
  public:
+  /// Verdict on a sample, and the interval that it ends.
   struct Result {
     ImuVerdict verdict = ImuVerdict::kAccepted;
     double duration_s = 0.0;  ///< since the accepted sample before; 0 for the first

@@ -30,6 +30,7 @@ struct Correction {
   NavigationState state;
 };
 
+/// A ring of intervals, and the state at the end of each that is mechanised.
 class InsEngine {
  public:
   InsEngine(const Planet& planet, const ImuInputParams& params);

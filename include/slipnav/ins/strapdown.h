@@ -14,6 +14,7 @@ struct ImuInterval {
   double duration_s = 0.0;               ///< 0: there is no such interval
 };
 
+/// One step of the mechanisation. Without a state of its own.
 class Strapdown {
  public:
   explicit Strapdown(const Planet& planet) : planet_(planet) {}

@@ -25,6 +25,7 @@ class ImuMount {
  public:
   explicit ImuMount(const MountParams& params);
 
+  /// @param specific_force,angular_rate in the sensor's own axes [m/s²], [rad/s]
   ImuSample toBody(Nanoseconds stamp, const Vector3& specific_force, const Vector3& angular_rate) const;
 
   /// A vector of the body axes in the sensor's own axes.

@@ -9,6 +9,7 @@
 
 namespace slipnav {
 
+/// Integral of the motion over the interval that is open.
 class MotionAverage {
  public:
   /// Starts an interval at `start`; 0: no interval is open.

@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// Block `nonholonomic`.
 struct NonholonomicParams {
   double lateral_std_mps = 0.0012;
   double lateral_slope_std = 0.0075;

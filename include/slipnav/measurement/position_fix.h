@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// Position of the antenna and its variances, uncorrelated.
 struct PositionFix {
   Nanoseconds stamp = 0;
   Geodetic position;

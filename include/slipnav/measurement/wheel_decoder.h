@@ -19,6 +19,7 @@ struct JointArrays {
   const std::vector<double>& velocity_radps;
 };
 
+/// Finds the configured wheels in each message, and remembers the one before to difference positions.
 class WheelDecoder {
  public:
   /// @param max_speed_mps a wheel that goes faster at its circumference has not been read rightly

@@ -29,6 +29,7 @@ struct PlanarMotion {
   bool has_yaw_rate = false;
 };
 
+/// Where the wheels are, and what their rates say about the vehicle. Immutable.
 class WheelGeometry {
  public:
   /// @param scrub_factor how much wider the track appears when a skid-steered rover turns; 1 for no scrubbing

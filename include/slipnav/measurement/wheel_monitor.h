@@ -14,6 +14,7 @@
 
 namespace slipnav {
 
+/// Block `wheel_monitor`.
 struct WheelMonitorParams {
   double max_speed_mps = 5.0;
   double difference_mps = 0.15;
@@ -22,6 +23,7 @@ struct WheelMonitorParams {
   void visit(ParameterVisitor& v);
 };
 
+/// Verdict on each wheel, by the order of the configuration.
 class WheelMonitor {
  public:
   /// @param wheels as configured; without any, or with a single one, nothing is ever found
@@ -40,6 +42,7 @@ class WheelMonitor {
 
   /// The forward speed that the sound wheels say [m/s]; of use when more than half of them are sound.
   double soundSpeed() const { return sound_speed_mps_; }
+  /// Whether wheel speed may be used at all: fewer than half of the wheels are faulty.
   bool isUsable() const { return 2 * faultyCount() < count() || faultyCount() == 0; }
 
  private:

@@ -10,6 +10,7 @@
 
 namespace slipnav {
 
+/// Block `wheel`.
 struct WheelOdometryParams {
   std::string source = "auto";
   double stamp_delay_s = 0.0;

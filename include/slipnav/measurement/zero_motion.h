@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// Block `zero_motion`.
 struct ZeroMotionParams {
   double velocity_std_mps = 0.002;
   double least_velocity_std_mps = 0.00002;

@@ -15,6 +15,7 @@
 
 namespace slipnav {
 
+/// Block `checkpoint`.
 struct CheckpointParams {
   std::string file;
   double interval_s = 2.0;
@@ -28,6 +29,7 @@ struct CheckpointParams {
   bool enabled() const { return !file.empty(); }
 };
 
+/// The whole state of filter and slip model at one stamp.
 struct Checkpoint {
   InitialState state;
   std::uint32_t session = 0;                 ///< restarts of the clock before it
@@ -47,6 +49,7 @@ Checkpoint parseCheckpoint(const std::string& text);
 /// Writes `file`, keeping the one before as `file.1`. Throws std::runtime_error that names the file.
 void saveCheckpoint(const std::string& file, const Checkpoint& checkpoint);
 
+/// What was found at the place of a checkpoint.
 struct LoadedCheckpoint {
   std::optional<Checkpoint> checkpoint;  ///< the newest that is sound
   std::vector<std::string> refused;      ///< what was wrong with the files that were not, one line each

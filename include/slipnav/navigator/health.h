@@ -20,6 +20,7 @@ struct Alarm {
 
 using Alarms = std::map<std::string, Alarm>;
 
+/// Keeps an alarm for each thing that has been wrong.
 class HealthMonitor {
  public:
   /// @param setup names the wheels and says how long they may be silent
@@ -30,6 +31,7 @@ class HealthMonitor {
   void noteWheels(Nanoseconds stamp, bool taken);
   /// Looks at rejected measurements, silent wheels and wheels that contradict the others.
   void noteFilter(const FilterEngine& filter);
+  /// Anything else that is wrong at `stamp`.
   void note(const std::string& name, Nanoseconds stamp);
   /// The clock has gone back.
   void restart() { newest_wheels_ = 0; }

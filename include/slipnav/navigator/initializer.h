@@ -20,6 +20,7 @@
 
 namespace slipnav {
 
+/// Block `initialization`.
 struct InitializationParams {
   std::string source = "gnss";
   double heading_deg = 0.0;
@@ -39,6 +40,7 @@ struct InitializationParams {
   void visit(ParameterVisitor& v);
 };
 
+/// Collects samples in order of stamp until there is a start.
 class Initializer {
  public:
   Initializer(const Planet& planet, const InitializationParams& params, const ImuInputParams& imu,
@@ -47,6 +49,7 @@ class Initializer {
   /// Forgets all samples.
   void reset();
 
+  /// Samples in order of stamp, of all sensors together.
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
   void push(const PositionFix& fix);

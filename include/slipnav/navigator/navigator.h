@@ -6,6 +6,7 @@
 
 namespace slipnav {
 
+/// An InsEngine and a FilterEngine that pass steps and corrections to each other.
 class Navigator {
  public:
   Navigator(const Planet& planet, const ImuInputParams& imu, const FilterSetup& setup);

@@ -19,6 +19,7 @@ struct Output {
   Covariance6 twist_covariance = Covariance6::Zero();  ///< velocity, then angular rate, base_link axes
 };
 
+/// The one place where core axes become those of messages. Immutable.
 class OutputMaker {
  public:
   /// @param lever_imu_to_base_b from the IMU to base_link, body axes [m]

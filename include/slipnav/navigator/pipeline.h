@@ -26,6 +26,7 @@ struct SampleCounts {
   std::uint64_t restarts = 0;  ///< times the clock went back and all began anew
 };
 
+/// Takes samples in order of stamp; starts anew when the clock goes back.
 class Pipeline {
  public:
   Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEngine::EstimateSink sink);

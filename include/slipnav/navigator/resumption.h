@@ -10,6 +10,7 @@
 
 namespace slipnav {
 
+/// Holds the checkpoint until it is used or of no use any more.
 class Resumption {
  public:
   /// Reads the checkpoint, if the parameters name a file.

@@ -26,6 +26,7 @@ inline Nanoseconds stampOf(const Sample& sample) {
   return std::visit([](const auto& s) { return s.stamp; }, sample);
 }
 
+/// One queue per sensor; the earliest sample of all goes first.
 class SampleMerger {
  public:
   using Sink = std::function<void(const Sample&)>;
@@ -36,8 +37,9 @@ class SampleMerger {
   void push(const Sample& sample);
 
   /// Lets go what nothing can come before any more.
-  /// @param trusted newest stamp of the IMU by which that is judged: later samples may have overtaken others
   void advance(const Sink& sink) { advance(newest_imu_, sink); }
+  /// The same, judged by an earlier stamp of the IMU.
+  /// @param trusted newest stamp that nothing can have overtaken
   void advanceTrusting(Nanoseconds trusted, const Sink& sink) { advance({newest_imu_.session, trusted}, sink); }
 
   /// Lets go everything.

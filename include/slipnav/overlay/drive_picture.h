@@ -13,6 +13,7 @@
 
 namespace slipnav {
 
+/// One point of a path as drawn, in the map frame.
 struct TrackPoint {
   Nanoseconds stamp = 0;
   Vector3 position_enu_m = Vector3::Zero();

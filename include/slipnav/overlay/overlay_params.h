@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// Block `overlay`.
 struct OverlayParams {
   double publish_period_s = 0.5;
   double point_spacing_m = 0.1;

@@ -15,6 +15,7 @@ struct ErrorReading {
   double bound_m = 0.0;  ///< 3σ
 };
 
+/// One stop and what it did to the error.
 struct LoggedStop {
   int number = 0;  ///< counts from 1
   Nanoseconds begin = 0;
@@ -24,6 +25,7 @@ struct LoggedStop {
   ErrorReading after;   ///< the last one at standstill
 };
 
+/// Tells stops from the estimates' own word on standstill.
 class StopLog {
  public:
   /// @param capacity the oldest stops beyond it are forgotten

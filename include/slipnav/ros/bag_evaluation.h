@@ -11,6 +11,7 @@
 
 namespace slipnav {
 
+/// The report of a recording, and what there is to say about its messages.
 struct BagEvaluation {
   RunReport report;
   OdometryLog odometry;                 ///< what the nodelets publish for this recording

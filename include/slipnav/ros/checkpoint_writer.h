@@ -12,6 +12,7 @@
 
 namespace slipnav {
 
+/// Thread-safe.
 class CheckpointWriter {
  public:
   explicit CheckpointWriter(std::string file);
@@ -26,6 +27,7 @@ class CheckpointWriter {
   /// Waits until everything taken is written.
   void flush();
 
+  /// Counts since the start.
   struct Status {
     std::uint64_t written = 0;
     std::uint64_t failed = 0;

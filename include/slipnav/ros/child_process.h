@@ -9,6 +9,7 @@
 
 namespace slipnav {
 
+/// The program lives no longer than this object.
 class ChildProcess {
  public:
   /// @param command the program (looked for in PATH when it has no slash) and its arguments

@@ -35,8 +35,11 @@ class CoreNodelet : public nodelet::Nodelet {
   /// Builds what the configuration describes; called once, before any message is handled and, where the extrinsics have
   /// to be waited for, after the two below. May throw std::invalid_argument.
   virtual void begin(const Config& config) = 0;
+  /// Calls listen() and serve().
   virtual void subscribe(const Config& config) = 0;
+  /// Calls publisher(); the topic by which others know that this nodelet is ready comes last.
   virtual void advertise(const Config& config) = 0;
+  /// Once a second; may come before begin().
   virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
   /// Called regularly by the wall clock.
   virtual void onTick() {}

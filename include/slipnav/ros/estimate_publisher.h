@@ -13,6 +13,7 @@
 
 namespace slipnav {
 
+/// The publishers of the nodelet Filter.
 class EstimatePublisher {
  public:
   EstimatePublisher(ros::NodeHandle& node, const Config& config);

@@ -12,6 +12,7 @@
 
 namespace slipnav {
 
+/// Joins odometry, nav_state and slip by their stamps.
 class EstimateRecorder {
  public:
   /// A message that is older than the newest by a second or more begins a new track.

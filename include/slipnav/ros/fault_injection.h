@@ -16,6 +16,7 @@
 
 namespace slipnav {
 
+/// One message of a recording.
 struct RecordedMessage {
   ros::Time time;  ///< when it was recorded
   std::string topic;
@@ -34,6 +35,7 @@ struct FaultTimes {
   ros::Time initialisation;  ///< while the start is looked for
 };
 
+/// One fault: its name, and the change that it makes to a recording.
 struct Fault {
   std::string name;
   std::function<void(Recording&, const FaultTimes&)> inject;

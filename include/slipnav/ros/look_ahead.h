@@ -12,6 +12,7 @@
 
 namespace slipnav {
 
+/// Says up to which stamp Ins is to mechanise.
 class LookAhead {
  public:
   explicit LookAhead(double max_wait_s) : window_(fromSeconds(max_wait_s + kMargin_s)) {}

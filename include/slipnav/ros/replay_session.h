@@ -12,6 +12,7 @@
 
 namespace slipnav {
 
+/// Which part of a recording is played, and how fast.
 struct ReplayOptions {
   std::string bag;
   double rate = 1.0;        ///< factor on real time
@@ -19,6 +20,7 @@ struct ReplayOptions {
   double duration_s = 0.0;  ///< 0: up to its end
 };
 
+/// Subscribes, plays, and collects the estimates.
 class ReplaySession {
  public:
   /// Listens to the nodelets' outputs, relative to the node's namespace.

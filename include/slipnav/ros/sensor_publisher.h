@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// The publishers of the nodelet Simulator.
 class SensorPublisher {
  public:
   SensorPublisher(ros::NodeHandle& node, const Config& config);

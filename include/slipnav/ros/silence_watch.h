@@ -11,6 +11,7 @@ class SilenceWatch {
  public:
   explicit SilenceWatch(double limit_s) : limit_s_(limit_s) {}
 
+  /// One instant by both clocks.
   struct Now {
     double ros_s;
     double real_s;

@@ -14,6 +14,7 @@
 
 namespace slipnav {
 
+/// Fills messages from samples in core axes.
 class SimulatedSensors {
  public:
   /// Throws std::invalid_argument when the configuration has another number of wheels than the simulated rover.

@@ -8,6 +8,7 @@
 
 namespace slipnav::sim {
 
+/// Works through its phases by what it sees of the rover.
 class Driver {
  public:
   explicit Driver(const SimulatorParams& params);

@@ -12,6 +12,7 @@ namespace slipnav::sim {
 /// Speed to which the grounds' vibration refers [m/s].
 inline constexpr double kVibrationSpeed_mps = 0.8;
 
+/// One kind of ground: shape, slip, and how it shakes the rover at kVibrationSpeed_mps.
 struct GroundParams {
   ReliefParams relief;
   SlipParams slip;

@@ -44,6 +44,7 @@ struct ImuParams {
   void visit(ParameterVisitor& v);
 };
 
+/// The wheel encoders.
 struct EncoderParams {
   double rate_hz = 10.0;
   double counts_per_turn = 47000.0;  ///< quadrature counts per turn of the wheel, after the gear
@@ -74,6 +75,7 @@ struct DriveParams {
   void visit(ParameterVisitor& v);
 };
 
+/// Block `simulator`.
 struct SimulatorParams {
   int seed = 1;
   std::string terrain = "rough";        ///< one of kTerrainNames (ground.h)

@@ -15,6 +15,7 @@ struct RoutePoint {
   double heading_rad = 0.0;  ///< from north towards east
 };
 
+/// A polyline, and the place on it that the rover has come to.
 class Route {
  public:
   /// @param straight_m length of the straight start

@@ -28,6 +28,7 @@ struct Kinematics {
 /// Slip ratio of the paper: 1 − v/(rω) when driving, rω/v − 1 when braking, within [−1, 1]; 0 at standstill.
 double slipRatio(double ground_speed_mps, double surface_speed_mps);
 
+/// Integrates commands to poses, with the slip of the ground.
 class RoverMotion {
  public:
   RoverMotion(const VehicleParams& vehicle, const GroundParams& ground, double start_heading_rad, double straight_m,
@@ -37,6 +38,7 @@ class RoverMotion {
   void advance(double forward_mps, double yaw_rate_radps, double dt_s);
 
   const Kinematics& state() const { return state_; }
+  /// The true radii [m], which the estimator does not know.
   const PerWheel& wheelRadii() const { return radius_m_; }
 
  private:

@@ -35,6 +35,7 @@ struct Measurements {
   std::optional<GnssFix> truth;   ///< for metrics only
 };
 
+/// The rover, the ground under it, and its sensors.
 class RoverSimulator {
  public:
   /// Throws std::invalid_argument that names a parameter out of range.

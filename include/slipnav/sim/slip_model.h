@@ -50,10 +50,12 @@ struct Slippage {
   PerWheel spin_up = {};  ///< excess of each wheel's speed over its command, relative
 };
 
+/// Random functions of the travel, drawn as it grows.
 class SlipModel {
  public:
   SlipModel(const SlipParams& params, std::uint64_t seed);
 
+  /// For a travel that does not decrease from call to call.
   Slippage at(const Footing& footing);
 
  private:

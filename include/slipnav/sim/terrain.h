@@ -27,6 +27,7 @@ struct SurfacePoint {
   double looseness = 0.0;  ///< 0 on the firm area around the start, 1 out in the terrain
 };
 
+/// Height as a function of the place. Immutable.
 class Terrain {
  public:
   /// @param start_heading_rad the firm area is centred on the straight that begins at the origin with this heading

@@ -12,6 +12,7 @@
 
 namespace slipnav {
 
+/// Block `stationary`.
 struct StationaryParams {
   double window_s = 0.3;
   double hold_off_s = 0.2;
@@ -22,6 +23,7 @@ struct StationaryParams {
   void visit(ParameterVisitor& v);
 };
 
+/// Keeps the IMU steps of the test window, and since when the wheels have been at rest.
 class StationaryDetector {
  public:
   explicit StationaryDetector(const StationaryParams& params);

@@ -12,6 +12,7 @@ namespace slipnav {
 /// Slower than this a slip ratio says nothing [m/s].
 inline constexpr double kMinSpeedForSlip_mps = 0.05;
 
+/// Slip ratios and slip angle of one interval.
 struct VehicleSlip {
   Nanoseconds stamp = 0;  ///< end of the interval
   double duration_s = 0.0;

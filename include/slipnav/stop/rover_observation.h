@@ -5,6 +5,7 @@
 
 namespace slipnav {
 
+/// One estimate, reduced to what stops depend on.
 struct RoverObservation {
   Nanoseconds stamp = 0;        ///< of the estimate
   double forward_mps = 0.0;     ///< over ground, mean over the last wheel interval

@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// Follows the observations of one standstill.
 class Standstill {
  public:
   void observe(const RoverObservation& observation);

@@ -7,8 +7,10 @@
 
 namespace slipnav {
 
+/// How far the supervisor may go: nothing, words, or deeds.
 enum class StopMode { kOff, kAdvise, kActive };
 
+/// Block `stop`.
 struct StopParams {
   std::string mode = "advise";
   double deceleration_mps2 = 0.5;

@@ -15,6 +15,7 @@ struct DriveMoment {
   bool on_route = false;    ///< the initialisation drive is over
 };
 
+/// Stands between the simulated operator and the simulated rover.
 class StopPolicy {
  public:
   virtual ~StopPolicy() = default;

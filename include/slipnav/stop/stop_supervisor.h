@@ -24,8 +24,10 @@ struct StopForecast {
   double time_to_stop_s = std::numeric_limits<double>::infinity();
 };
 
+/// In the order in which a stop goes through them.
 enum class StopState { kDriving, kCountingDown, kStopping, kHolding };
 
+/// What slipnav/StopStatus says, in core types.
 struct SupervisorStatus {
   Nanoseconds stamp = 0;  ///< of the newest estimate
   StopState state = StopState::kDriving;
@@ -39,6 +41,7 @@ struct SupervisorStatus {
   std::string reason;            ///< for the state, in words
 };
 
+/// Decides on each observation; shortens each command.
 class StopSupervisor {
  public:
   explicit StopSupervisor(const StopParams& params);
