@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// The key of each field in YAML is its default name; diagnostics are where tools for all robots look for them.
+/// The key of each field in YAML is its default name.
 struct TopicNames {
   std::string imu = "imu/data";
   std::string joint_states = "joint_states";
@@ -25,7 +25,7 @@ struct TopicNames {
   std::string error_forecast = "error_forecast";
   std::string stop = "stop";
   std::string stop_cmd = "stop_cmd";
-  std::string diagnostics = "/diagnostics";
+  std::string diagnostics = "diagnostics";
   std::string path = "path";
   std::string truth_path = "truth/path";
   std::string wheel_path = "wheel_path";
