@@ -53,6 +53,7 @@ void Config::visit(ParameterVisitor& v) {
   v.group("forecast", forecast, "how slip and position error are forecast");
   v.group("overlay", overlay, "what rviz shows of a drive");
   v.group("stop", stop, "when the rover stops for a zero update, and how");
+  v.group("calibration", calibration, "how radii, scrub and IMU mounting are found from a drive with truth");
   v.group("simulator", simulator, "the simulated rover, its ground and its sensors");
 }
 

@@ -265,6 +265,11 @@ std::vector<RtklibSolution> readRtklibPos(std::istream& in, const std::string& n
   return reader.takeSolutions();
 }
 
+bool isRtklibFile(const std::string& name) {
+  const std::string ending = ".pos";
+  return name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+}
+
 std::vector<RtklibSolution> readRtklibPos(const std::string& path) {
   std::ifstream file(path);
   if (!file) {

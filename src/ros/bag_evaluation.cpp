@@ -14,11 +14,6 @@
 namespace slipnav {
 namespace {
 
-bool isRtklibFile(const std::string& truth) {
-  const std::string ending = ".pos";
-  return truth.size() > ending.size() && truth.compare(truth.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 /// Processor and wall time since it was made.
 class Stopwatch {
  public:

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "slipnav/calibration/calibration_params.h"
 #include "slipnav/config/frames.h"
 #include "slipnav/config/override.h"
 #include "slipnav/config/parameter_visitor.h"
@@ -51,6 +52,7 @@ struct Config {
   ForecastParams forecast;
   StopParams stop;
   OverlayParams overlay;
+  CalibrationParams calibration;
   sim::SimulatorParams simulator;
 
   void visit(ParameterVisitor& v);

@@ -23,6 +23,9 @@ struct RtklibSolution {
   int satellites = 0;
 };
 
+/// Whether a name is that of an RTKLIB solution file, by its ending.
+bool isRtklibFile(const std::string& name);
+
 /// Reads a file. Throws std::runtime_error that names the file, and the line where one cannot be understood: a bad
 /// number or date, a row with fewer fields than the header names, rows without a header. Blank lines are skipped.
 std::vector<RtklibSolution> readRtklibPos(const std::string& path);

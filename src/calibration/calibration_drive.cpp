@@ -1,0 +1,57 @@
+#include "slipnav/calibration/calibration_drive.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+namespace slipnav {
+namespace {
+
+template <class Sample>
+void sortSamples(std::vector<Sample>& samples) {
+  std::stable_sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return a.stamp < b.stamp; });
+  const auto repeated =
+      std::unique(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return a.stamp == b.stamp; });
+  samples.erase(repeated, samples.end());
+}
+
+[[noreturn]] void failForGap(double gap_s, double after_s) {
+  std::ostringstream message;
+  message << "the IMU is silent for " << gap_s << " s, " << after_s
+          << " s after its first sample; calibrate on a part of the recording without such a gap";
+  throw std::invalid_argument(message.str());
+}
+
+}  // namespace
+
+void sortByStamp(CalibrationDrive& drive) {
+  sortSamples(drive.imu);
+  sortSamples(drive.wheels);
+  sortSamples(drive.truth);
+}
+
+std::vector<TimedInterval> imuIntervals(const std::vector<ImuSample>& samples, const ImuInputParams& params) {
+  ImuScreen screen(params);
+  std::vector<TimedInterval> intervals;
+  intervals.reserve(samples.size());
+  ImuSample before;
+  for (const ImuSample& sample : samples) {
+    const ImuScreen::Result result = screen.check(sample);
+    if (!isAccepted(result.verdict)) {
+      continue;
+    }
+    if (result.gap_s > params.max_bridged_gap_s) {
+      failForGap(result.gap_s, toSeconds(before.stamp - samples.front().stamp));
+    }
+    if (result.duration_s > 0.0) {
+      const bool by_both_ends = result.verdict == ImuVerdict::kAfterGap || params.sampling == "instantaneous";
+      const Vector3 force = by_both_ends ? Vector3(0.5 * (before.f_ib_b + sample.f_ib_b)) : sample.f_ib_b;
+      const Vector3 rate = by_both_ends ? Vector3(0.5 * (before.omega_ib_b + sample.omega_ib_b)) : sample.omega_ib_b;
+      intervals.push_back({before.stamp, sample.stamp, {force, rate, result.duration_s}});
+    }
+    before = sample;
+  }
+  return intervals;
+}
+
+}  // namespace slipnav
