@@ -53,6 +53,10 @@ const std::optional<Calibrated>& ratioOf(const WheelParams& wheel, const Calibra
 }
 
 void addWheels(const Config& config, const CalibrationResult& result, Table& table) {
+  if (!result.has_wheel_rates && result.left_radius_ratio) {
+    table.add("ground over odometry speed", *result.left_radius_ratio, 5);
+    return;
+  }
   const std::vector<WheelParams> wheels = calibratedWheels(config, result);
   for (std::size_t i = 0; i < wheels.size(); ++i) {
     if (const std::optional<Calibrated>& ratio = ratioOf(wheels[i], result)) {
@@ -138,12 +142,15 @@ std::string calibrationTable(const Config& config, const CalibrationResult& resu
 
 std::string calibrationYaml(const Config& config, const CalibrationResult& result) {
   std::ostringstream out = plainStream();
-  describeStd("the left radii [%]", result.left_radius_ratio, 100.0, 3, out);
-  describeStd("the right radii [%]", result.right_radius_ratio, 100.0, 3, out);
+  const bool has_radii = result.has_wheel_rates && result.left_radius_ratio;
+  if (has_radii) {
+    describeStd("the left radii [%]", result.left_radius_ratio, 100.0, 3, out);
+    describeStd("the right radii [%]", result.right_radius_ratio, 100.0, 3, out);
+  }
   describeStd("wheel.scrub_factor", result.scrub_factor, 1.0, 4, out);
   describeStd("the pitch of the IMU [deg]", result.mount_pitch_rad, radToDeg(1.0), 3, out);
   describeStd("the yaw of the IMU [deg]", result.mount_yaw_rad, radToDeg(1.0), 3, out);
-  if (result.left_radius_ratio) {
+  if (has_radii) {
     out << toYaml(WheelBlock{calibratedWheels(config, result)});
   }
   if (result.scrub_factor) {

@@ -125,6 +125,7 @@ void calibrateWheels(const Config& config, const std::vector<MotionSample>& samp
   const CalibrationParams& params = config.calibration;
   const Sides sides(config.wheels);
   SideFit side_fit;
+  result.has_wheel_rates = samples.front().wheels.count > 0;
   result.sides_differ = sides.present(samples.front().wheels);
   if (!result.sides_differ) {
     result.not_observable.push_back(

@@ -98,6 +98,7 @@ TEST(CalibrationInputTest, aSpeedAloneGivesOneScaleForAllWheels) {
   }
   const CalibrationResult result = calibrate(config, simulated.drive);
   ASSERT_TRUE(result.left_radius_ratio);
+  EXPECT_FALSE(result.has_wheel_rates);
   EXPECT_FALSE(result.sides_differ);
   EXPECT_EQ(result.left_radius_ratio->value, result.right_radius_ratio->value);
   const double mean = 0.5 * (simulated.left_radius_ratio + simulated.right_radius_ratio);

@@ -50,6 +50,15 @@ TEST(CalibrationReportTest, whatIsUnknownStaysAsConfigured) {
   EXPECT_EQ(configFrom(yaml).wheel.scrub_factor, Config{}.wheel.scrub_factor);
 }
 
+TEST(CalibrationReportTest, aRobotsOwnOdometryHasNoRadiiToChange) {
+  CalibrationResult result = fullResult();
+  result.has_wheel_rates = false;
+  EXPECT_EQ(calibrationYaml(Config{}, result).find("wheels:"), std::string::npos);
+  EXPECT_NE(calibrationTable(Config{}, result).find("ground over odometry speed             -     1.01000"),
+            std::string::npos)
+      << calibrationTable(Config{}, result);
+}
+
 TEST(CalibrationReportTest, theTableHasEveryQuantityAndReason) {
   const std::string table = calibrationTable(Config{}, fullResult());
   for (const char* line : {"radius front_left_wheel [m]     0.110000    0.111100    0.000055",

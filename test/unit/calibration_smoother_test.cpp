@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulated_calibration.h"
@@ -23,7 +24,7 @@ class AidedSmootherTest : public testing::Test {
                                   [this](const TimedInterval& i) { return i.start >= start_.nav.stamp; }));
   }
 
-  const NavigationState truthAt(Nanoseconds stamp) const {
+  NavigationState truthAt(Nanoseconds stamp) const {
     const auto truth = std::find_if(simulated_.truth.begin(), simulated_.truth.end(),
                                     [stamp](const sim::TruthState& t) { return t.stamp >= stamp; });
     return toNavState(*truth, planet_, config_.imu.mount.position_b());

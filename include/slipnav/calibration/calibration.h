@@ -18,8 +18,10 @@ struct Calibrated {
 /// What can be said, and for each that cannot be, a line in `not_observable`.
 struct CalibrationResult {
   /// True over configured radius, of the wheels left and right of the middle; equal where sides cannot be told apart.
+  /// Where the recording has the robot's own odometry and no wheel rates: ground speed over the speed that it says.
   std::optional<Calibrated> left_radius_ratio;
   std::optional<Calibrated> right_radius_ratio;
+  bool has_wheel_rates = true;
   bool sides_differ = false;               ///< the two were estimated each by itself
   std::optional<Calibrated> scrub_factor;  ///< effective over configured track
   std::optional<double> track_m;           ///< configured, between the mean left and the mean right wheel
