@@ -18,6 +18,7 @@ inline constexpr int kAidedStates = kNavStates + 1;
 using AidedVector = Eigen::Matrix<double, kAidedStates, 1>;
 using AidedCovariance = Eigen::Matrix<double, kAidedStates, kAidedStates>;
 
+/// What the smoother estimates: a navigation state, and the scale factor of the gyro about z.
 struct AidedState {
   NavigationState nav;
   double yaw_scale = 0.0;  ///< of the gyro about body z: it says (1 + yaw_scale) ω_z
@@ -33,6 +34,7 @@ struct SmoothedEpoch {
   std::size_t next_interval = 0;                ///< the IMU interval that begins here
 };
 
+/// The states of a whole drive, at the stamps of its measurements, and how well truth agreed with them.
 struct SmoothedDrive {
   std::vector<SmoothedEpoch> epochs;
   std::size_t fixes = 0;          ///< truth positions that were used
@@ -40,6 +42,7 @@ struct SmoothedDrive {
   double fix_nis = 0.0;           ///< mean normalised innovation squared of the used ones per degree of freedom
 };
 
+/// Runs a drive forwards and backwards. Immutable.
 class AidedSmoother {
  public:
   AidedSmoother(const Planet& planet, const Config& config);

@@ -29,6 +29,7 @@ struct RegressionProblem {
   std::vector<std::size_t> batches_;
 };
 
+/// Parameters with the covariance that their batches give them.
 struct RegressionResult {
   Eigen::VectorXd estimate;
   Eigen::MatrixXd covariance;

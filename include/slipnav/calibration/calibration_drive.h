@@ -11,6 +11,7 @@
 
 namespace slipnav {
 
+/// The samples of all sensors and the truth, each in order of stamp.
 struct CalibrationDrive {
   std::vector<ImuSample> imu;  ///< in the axes of the configured mounting
   std::vector<WheelMotion> wheels;

@@ -5,6 +5,7 @@
 
 namespace slipnav {
 
+/// Block `calibration`.
 struct CalibrationParams {
   double firm_distance_m = 12.0;
   double firm_slip_std = 0.0005;

@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// The calibration of a recording, and the configuration that it started from.
 struct BagCalibration {
   Config config;  ///< as it was used, with the poses of the sensors that the recording says
   CalibrationResult result;
