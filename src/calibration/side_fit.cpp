@@ -44,6 +44,7 @@ std::vector<TurnRow> turnRows(const Sides& sides, double batch_m, const std::vec
     cell.batch = batchOf(sample, batch_m);
   }
   std::vector<TurnRow> rows;
+  rows.reserve(cells.size());
   for (const auto& [index, cell] : cells) {
     rows.push_back({cell.row / cell.duration_s, cell.y_mps / cell.duration_s, cell.speed_mps / cell.duration_s,
                     cell.duration_s, cell.batch});
