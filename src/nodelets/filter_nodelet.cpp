@@ -179,7 +179,7 @@ class FilterNodelet : public CoreNodelet {
     }
     message->run_until = toRosTime(look_ahead_.runUntil());
     look_ahead_.told(look_ahead_.runUntil());
-    correction_publisher_.publish(FilterCorrection::ConstPtr(message));
+    correction_publisher_.publish(message);
   }
 
   void onSlipForecast(const SlipForecast::ConstPtr& message) {
@@ -235,7 +235,7 @@ class FilterNodelet : public CoreNodelet {
   std::uint32_t start_ = 0;  ///< count of the initial state in use
   std::uint64_t wheel_messages_ = 0;
   std::uint64_t rejected_ = 0;
-  ros::Publisher correction_publisher_;
+  SharedPublisher<FilterCorrection> correction_publisher_;
 };
 
 }  // namespace slipnav

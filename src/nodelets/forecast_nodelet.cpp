@@ -49,7 +49,7 @@ class ForecastNodelet : public CoreNodelet {
     }
     const auto progress = boost::make_shared<std_msgs::Header>();
     progress->stamp = message->state.stamp;
-    progress_publisher_.publish(std_msgs::Header::ConstPtr(progress));
+    progress_publisher_.publish(progress);
   }
 
   void publish(const Forecast& forecast) {
@@ -59,10 +59,10 @@ class ForecastNodelet : public CoreNodelet {
     time_to_stop_s_ = forecast.error.time_to_stop_s;
     const auto slip = boost::make_shared<SlipForecast>();
     fill(forecast, model_, computation_ms_, frames_, *slip);
-    slip_publisher_.publish(SlipForecast::ConstPtr(slip));
+    slip_publisher_.publish(slip);
     const auto error = boost::make_shared<ErrorForecast>();
     fill(forecast.error, frames_, *error);
-    error_publisher_.publish(ErrorForecast::ConstPtr(error));
+    error_publisher_.publish(error);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
@@ -98,9 +98,9 @@ class ForecastNodelet : public CoreNodelet {
   std::uint64_t forecasts_ = 0;
   Nanoseconds newest_ = 0;  ///< estimate
   Nanoseconds last_ = 0;    ///< forecast
-  ros::Publisher slip_publisher_;
-  ros::Publisher error_publisher_;
-  ros::Publisher progress_publisher_;
+  SharedPublisher<SlipForecast> slip_publisher_;
+  SharedPublisher<ErrorForecast> error_publisher_;
+  SharedPublisher<std_msgs::Header> progress_publisher_;
 };
 
 }  // namespace slipnav

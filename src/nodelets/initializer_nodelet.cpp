@@ -144,7 +144,7 @@ class InitializerNodelet : public CoreNodelet {
     const auto message = boost::make_shared<StartState>();
     message->start = ++starts_;
     message->session = session_;
-    start_publisher_.publish(StartState::ConstPtr(message));
+    start_publisher_.publish(message);
     reportProgress();
   }
 
@@ -164,7 +164,7 @@ class InitializerNodelet : public CoreNodelet {
     message->start = ++starts_;
     message->session = session_;
     fill(initial, *message);
-    start_publisher_.publish(StartState::ConstPtr(message));
+    start_publisher_.publish(message);
 
     geometry_msgs::TransformStamped map_to_odom;
     map_to_odom.header.stamp = message->state.stamp;
@@ -186,7 +186,7 @@ class InitializerNodelet : public CoreNodelet {
     report->height_m = initial.origin.height_m;
     report->heading_deg = radToDeg(eulerFrom_q_b_to_n(initial.nav.q_b_to_n).z());
     report->heading_std_deg = radToDeg(std::sqrt(initial.P(kAttitude + 2, kAttitude + 2)));
-    progress_publisher_.publish(Initialization::ConstPtr(report));
+    progress_publisher_.publish(report);
     NODELET_INFO("initialisation at %.3f s: %s; origin %.7f deg, %.7f deg, %.2f m, heading %.2f deg (1 sigma %.2f deg)",
                  report->header.stamp.toSec(), how.c_str(), report->latitude_deg, report->longitude_deg,
                  report->height_m, report->heading_deg, report->heading_std_deg);
@@ -201,7 +201,7 @@ class InitializerNodelet : public CoreNodelet {
     report->header.stamp = toRosTime(screen_->newestStamp());
     report->header.frame_id = frames_.map;
     report->progress = progress_;
-    progress_publisher_.publish(Initialization::ConstPtr(report));
+    progress_publisher_.publish(report);
     NODELET_INFO("initialisation: %s", progress_.c_str());
   }
 
@@ -226,8 +226,8 @@ class InitializerNodelet : public CoreNodelet {
   bool done_ = false;
   std::string progress_;
   tf2_ros::StaticTransformBroadcaster tf_;
-  ros::Publisher start_publisher_;
-  ros::Publisher progress_publisher_;
+  SharedPublisher<StartState> start_publisher_;
+  SharedPublisher<Initialization> progress_publisher_;
 };
 
 }  // namespace slipnav

@@ -117,7 +117,7 @@ class InsNodelet : public CoreNodelet {
     }
     if (!batch->steps.empty()) {
       batch->start = start_count_;
-      steps_publisher_.publish(boost::shared_ptr<const InsSteps>(batch));
+      steps_publisher_.publish(batch);
       unanswered_ = is_answered_ ? nullptr : batch;
     }
   }
@@ -167,7 +167,7 @@ class InsNodelet : public CoreNodelet {
   std::uint64_t rejected_ = 0;
   std::uint64_t diagnosed_samples_ = 0;
   Nanoseconds diagnosed_stamp_ = 0;
-  ros::Publisher steps_publisher_;
+  SharedPublisher<InsSteps> steps_publisher_;
 };
 
 }  // namespace slipnav

@@ -106,8 +106,8 @@ class OverlayNodelet : public CoreNodelet {
     if (const std::optional<WheelMotion> wheels = wheel_input_->take(*message)) {
       picture_->wheelInput().add(SpeedSample{wheels->stamp, wheels->motion.forward_mps});
       joints_.add(*wheels);
-      if (joints_publisher_.getNumSubscribers() > 0) {
-        joints_publisher_.publish(joints_.message());
+      if (joints_publisher_.hasSubscribers()) {
+        joints_publisher_.publish(boost::make_shared<sensor_msgs::JointState>(joints_.message()));
       }
     }
   }
@@ -136,10 +136,11 @@ class OverlayNodelet : public CoreNodelet {
 
   /// The topics are latched: who comes later gets the newest.
   void publishAll() {
-    path_publisher_.publish(toPath(picture_->track(), map_));
-    truth_publisher_.publish(toPath(picture_->truth(), map_));
-    wheel_publisher_.publish(toPath(picture_->wheels(), map_));
-    markers_publisher_.publish(markers_->make(*picture_, messages_));
+    path_publisher_.publish(boost::make_shared<nav_msgs::Path>(toPath(picture_->track(), map_)));
+    truth_publisher_.publish(boost::make_shared<nav_msgs::Path>(toPath(picture_->truth(), map_)));
+    wheel_publisher_.publish(boost::make_shared<nav_msgs::Path>(toPath(picture_->wheels(), map_)));
+    markers_publisher_.publish(
+        boost::make_shared<visualization_msgs::MarkerArray>(markers_->make(*picture_, messages_)));
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
@@ -166,11 +167,11 @@ class OverlayNodelet : public CoreNodelet {
   tf2_ros::TransformBroadcaster tf_;
   double published_at_s_ = 0.0;
   std::uint64_t published_revision_ = 0;
-  ros::Publisher path_publisher_;
-  ros::Publisher truth_publisher_;
-  ros::Publisher wheel_publisher_;
-  ros::Publisher markers_publisher_;
-  ros::Publisher joints_publisher_;
+  SharedPublisher<nav_msgs::Path> path_publisher_;
+  SharedPublisher<nav_msgs::Path> truth_publisher_;
+  SharedPublisher<nav_msgs::Path> wheel_publisher_;
+  SharedPublisher<visualization_msgs::MarkerArray> markers_publisher_;
+  SharedPublisher<sensor_msgs::JointState> joints_publisher_;
 };
 
 }  // namespace slipnav

@@ -181,8 +181,7 @@ class SimulatorNodelet : public CoreNodelet {
       waitFor(Waiting::kForCommand);
       awaited_ = config_.topics.cmd_vel;
     }
-    command_publisher_.publish(
-        geometry_msgs::Twist::ConstPtr(boost::make_shared<geometry_msgs::Twist>(toTwist(in_users_axes))));
+    command_publisher_.publish(boost::make_shared<geometry_msgs::Twist>(toTwist(in_users_axes)));
     if (!supervisorIsWired(config_)) {
       execute(wanted);
     }
@@ -293,7 +292,7 @@ class SimulatorNodelet : public CoreNodelet {
   Nanoseconds offline_start_ = 0;
   Nanoseconds newest_status_ = 0;  ///< 0: there has been no estimate so far
   std::unique_ptr<SensorPublisher> sensors_;
-  ros::Publisher command_publisher_;
+  SharedPublisher<geometry_msgs::Twist> command_publisher_;
 };
 
 }  // namespace slipnav

@@ -107,8 +107,7 @@ class StopSupervisorNodelet : public CoreNodelet {
   }
 
   void give(const VelocityCommand& command) {
-    command_publisher_.publish(
-        geometry_msgs::Twist::ConstPtr(boost::make_shared<geometry_msgs::Twist>(toTwist(command))));
+    command_publisher_.publish(boost::make_shared<geometry_msgs::Twist>(toTwist(command)));
   }
 
   void onStopNow(const std_srvs::TriggerRequest&, std_srvs::TriggerResponse& response) {
@@ -154,7 +153,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     const SupervisorStatus& status = supervisor_->status();
     const auto message = boost::make_shared<StopStatus>();
     fill(status, supervisor_->mode(), frames_, *message);
-    status_publisher_.publish(StopStatus::ConstPtr(message));
+    status_publisher_.publish(message);
     if (status.state == reported_) {
       return;
     }
@@ -170,7 +169,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     const auto message = boost::make_shared<std_msgs::Float64>();
     const SupervisorStatus& status = supervisor_->status();
     message->data = status.state >= StopState::kStopping ? 0.0 : status.time_left_s;
-    countdown_publisher_.publish(std_msgs::Float64::ConstPtr(message));
+    countdown_publisher_.publish(message);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) override {
@@ -228,9 +227,9 @@ class StopSupervisorNodelet : public CoreNodelet {
   bool estimates_lost_ = false;
   std::uint64_t refused_commands_ = 0;
   StopState reported_ = StopState::kDriving;
-  ros::Publisher command_publisher_;
-  ros::Publisher status_publisher_;
-  ros::Publisher countdown_publisher_;
+  SharedPublisher<geometry_msgs::Twist> command_publisher_;
+  SharedPublisher<StopStatus> status_publisher_;
+  SharedPublisher<std_msgs::Float64> countdown_publisher_;
 };
 
 }  // namespace slipnav

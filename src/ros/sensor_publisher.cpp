@@ -1,7 +1,5 @@
 #include "slipnav/ros/sensor_publisher.h"
 
-#include <rosgraph_msgs/Clock.h>
-
 #include <boost/make_shared.hpp>
 
 #include "slipnav/ros/conversions.h"
@@ -9,23 +7,21 @@
 namespace slipnav {
 namespace {
 
-constexpr std::uint32_t kQueueSize = 10000;
-
 template <class Message>
-void send(const ros::Publisher& publisher, Message message) {
-  publisher.publish(boost::shared_ptr<const Message>(boost::make_shared<Message>(std::move(message))));
+void send(const SharedPublisher<Message>& publisher, Message message) {
+  publisher.publish(boost::make_shared<Message>(std::move(message)));
 }
 
 }  // namespace
 
 SensorPublisher::SensorPublisher(ros::NodeHandle& node, const Config& config)
     : sensors_(config),
-      clock_(node.advertise<rosgraph_msgs::Clock>("/clock", kQueueSize)),
-      imu_(node.advertise<sensor_msgs::Imu>(config.topics.imu, kQueueSize)),
-      joints_(node.advertise<sensor_msgs::JointState>(config.topics.joint_states, kQueueSize)),
-      gps_(node.advertise<sensor_msgs::NavSatFix>(config.topics.gps_fix, kQueueSize)),
-      truth_fix_(node.advertise<sensor_msgs::NavSatFix>(config.topics.truth_fix, kQueueSize)),
-      truth_odometry_(node.advertise<nav_msgs::Odometry>(config.topics.truth_odometry, kQueueSize)) {}
+      clock_(SharedPublisher<rosgraph_msgs::Clock>(node, "/clock")),
+      imu_(SharedPublisher<sensor_msgs::Imu>(node, config.topics.imu)),
+      joints_(SharedPublisher<sensor_msgs::JointState>(node, config.topics.joint_states)),
+      gps_(SharedPublisher<sensor_msgs::NavSatFix>(node, config.topics.gps_fix)),
+      truth_fix_(SharedPublisher<sensor_msgs::NavSatFix>(node, config.topics.truth_fix)),
+      truth_odometry_(SharedPublisher<nav_msgs::Odometry>(node, config.topics.truth_odometry)) {}
 
 void SensorPublisher::publish(const sim::Measurements& measurements, const sim::TruthState& truth) {
   rosgraph_msgs::Clock clock;

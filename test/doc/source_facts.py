@@ -73,7 +73,7 @@ def full_type(name):
 def topics():
     """{topic: (type, nodelets that publish, nodelets that read)}"""
     names = topic_names()
-    calls = re.compile(r"(listen|publisher|advertise)<([\w:]+)>\(\s*([\w.]+|\"[^\"]+\")")
+    calls = re.compile(r"(listen|publisher|SharedPublisher)<([\w:]+)>\((?:node, )?\s*([\w.]+|\"[^\"]+\")")
     found = {}
     for nodelet, text in nodelet_sources():
         for call, kind, topic in calls.findall(text):

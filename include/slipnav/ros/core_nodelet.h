@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "slipnav/config/config.h"
+#include "slipnav/ros/shared_publisher.h"
 
 namespace slipnav {
 
@@ -44,7 +45,7 @@ class CoreNodelet : public nodelet::Nodelet {
   /// Called regularly by the wall clock.
   virtual void onTick() {}
 
-  /// Subscribes with a queue that holds minutes of recordings at high speed. No exception leaves the callback.
+  /// No exception leaves the callback.
   template <class Message, class Self>
   void listen(const std::string& topic, void (Self::*handler)(const boost::shared_ptr<const Message>&)) {
     using Pointer = boost::shared_ptr<const Message>;
@@ -56,8 +57,8 @@ class CoreNodelet : public nodelet::Nodelet {
   }
 
   template <class Message>
-  ros::Publisher publisher(const std::string& topic, bool latch = false) {
-    return getNodeHandle().advertise<Message>(topic, kQueueSize, latch);
+  SharedPublisher<Message> publisher(const std::string& topic, bool latch = false) {
+    return {getNodeHandle(), topic, latch};
   }
 
   /// Offers a service in the nodelet's own namespace. Its response has `success` and `message`; an exception of the
@@ -78,8 +79,6 @@ class CoreNodelet : public nodelet::Nodelet {
   static double now() { return ros::SteadyTime::now().toSec(); }
 
  private:
-  static constexpr std::uint32_t kQueueSize = 10000;
-
   void handle(const std::function<void()>& work);
   void guarded(const std::function<void()>& work);
   /// @return what went wrong, "" when nothing did

@@ -1,8 +1,11 @@
 #pragma once
 /// Publishes what the filter finds: odometry, nav_state, slip and TF.
 
+#include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
+#include <slipnav/ForecastInput.h>
+#include <slipnav/NavState.h>
+#include <slipnav/Slip.h>
 #include <tf2_ros/transform_broadcaster.h>
 
 #include <optional>
@@ -10,6 +13,7 @@
 #include "slipnav/config/config.h"
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/navigator/output.h"
+#include "slipnav/ros/shared_publisher.h"
 
 namespace slipnav {
 
@@ -37,10 +41,10 @@ class EstimatePublisher {
   WheelGeometry geometry_;
   std::optional<OutputMaker> output_;
   tf2_ros::TransformBroadcaster tf_;
-  ros::Publisher odometry_;
-  ros::Publisher nav_state_;
-  ros::Publisher slip_;
-  ros::Publisher forecast_input_;
+  SharedPublisher<nav_msgs::Odometry> odometry_;
+  SharedPublisher<NavState> nav_state_;
+  SharedPublisher<Slip> slip_;
+  SharedPublisher<ForecastInput> forecast_input_;
 };
 
 }  // namespace slipnav

@@ -2,8 +2,9 @@
 /// Publishes what the simulated rover measures, and its clock.
 
 #include <ros/node_handle.h>
-#include <ros/publisher.h>
+#include <rosgraph_msgs/Clock.h>
 
+#include "slipnav/ros/shared_publisher.h"
 #include "slipnav/ros/simulated_sensors.h"
 
 namespace slipnav {
@@ -18,12 +19,12 @@ class SensorPublisher {
 
  private:
   SimulatedSensors sensors_;
-  ros::Publisher clock_;
-  ros::Publisher imu_;
-  ros::Publisher joints_;
-  ros::Publisher gps_;
-  ros::Publisher truth_fix_;
-  ros::Publisher truth_odometry_;
+  SharedPublisher<rosgraph_msgs::Clock> clock_;
+  SharedPublisher<sensor_msgs::Imu> imu_;
+  SharedPublisher<sensor_msgs::JointState> joints_;
+  SharedPublisher<sensor_msgs::NavSatFix> gps_;
+  SharedPublisher<sensor_msgs::NavSatFix> truth_fix_;
+  SharedPublisher<nav_msgs::Odometry> truth_odometry_;
 };
 
 }  // namespace slipnav
