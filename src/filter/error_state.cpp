@@ -29,6 +29,25 @@ void subtractError(const ErrorVector& error, VehicleState& state) {
   state.mount_yaw_rad -= error(kMountYaw);
 }
 
+ErrorReset correct(const Planet& planet, const ErrorVector& error, NavigationState& state) {
+  const NavigationState before = state;
+  subtractError(planet, error, state);
+  const Vector3 attitude = error.segment<3>(kAttitude);
+  const Matrix3 turn = quaternionFromRotationVector(-attitude).toRotationMatrix();
+  const Vector3 xi = error.segment<3>(kVelocity) - attitude.cross(before.v_eb_n);
+  state.v_eb_n = turn * (before.v_eb_n - xi);
+  ErrorReset reset = ErrorReset::Identity();
+  reset.block<3, 3>(kVelocity, kAttitude) = turn * skew(before.v_eb_n) - skew(state.v_eb_n);
+  reset.block<3, 3>(kVelocity, kVelocity) = turn;
+  reset.block<3, 3>(kPosition, kAttitude) = -skew(positionDifference(planet, state.position, before.position));
+  return reset;
+}
+
+void applyReset(const ErrorReset& reset, ErrorCovariance& P) {
+  P.topRows<9>() = (reset * P.topRows<9>()).eval();
+  P.leftCols<9>() = (P.leftCols<9>() * reset.transpose()).eval();
+}
+
 void forgetError(int index, double variance, ErrorCovariance& P) {
   P.row(index).setZero();
   P.col(index).setZero();

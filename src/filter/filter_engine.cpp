@@ -39,7 +39,7 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
       dynamics_(planet, setup.imu, setup.vehicle),
       detector_(setup.stationary),
       update_(setup.filter),
-      unseen_motion_(planet, setup.filter),
+      unseen_motion_(setup.filter),
       wheel_monitor_(setup.wheel_monitor, setup.wheels),
       cadence_(setup.filter.max_wheel_interval_s),
       tremor_(setup.zero),
@@ -70,7 +70,7 @@ void FilterEngine::initialise(const InitialState& initial) {
   update_ = GatedUpdate(setup_.filter);
   tremor_ = Tremor(setup_.zero);
   wheel_monitor_.reset();
-  unseen_motion_.reset();
+  unseen_motion_.settle();
   slip_ground_ = GroundFactor(setup_.filter.ground);
   side_slip_ground_ = GroundFactor(setup_.filter.ground);
   if (initial.tremor_variance > 0.0) {
@@ -212,14 +212,17 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   transition_.noise(kFastSlip) *= slip_ground_.variance();
   transition_.noise(kSideSlip) *= side_slip_ground_.variance();
   ErrorDynamics::propagate(transition_, P_);
+  average_.propagate(transition_);
+  vertical_average_.propagate(transition_);
   ErrorDynamics::decay(transition_, vehicle_);
   detector_.addImu(step.state.stamp, step.f_ib_b, step.omega_ib_b);
   state_ = step.state;
   if (step.gap_s > 0.0) {
     unseen_motion_.begin(state_, step.gap_s, P_);
     forgetSlipImpulse();
+    average_.restart(0);
+    vertical_average_.restart(0);
   }
-  unseen_motion_.settle(state_, P_);
   const Vector3 v_end_b = referenceVelocity(step);
   return step.gap_s > 0.0 ? v_end_b : 0.5 * (v_start_b + v_end_b);  // nothing is known of the way through a gap
 }
@@ -268,8 +271,9 @@ bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
 
 void FilterEngine::addMotion(const InsStep& step, const Vector3& v_mean_b, Nanoseconds until) {
   if (average_.start() != 0) {
-    vertical_average_.add(step, v_mean_b, average_.start(), until);
-    average_.add(step, v_mean_b, average_.start(), until);
+    const VelocityJacobian H_v = bodyVelocityJacobian(state_, setup_.lever_imu_to_reference_b);
+    vertical_average_.add(step, v_mean_b, H_v, average_.start(), until);
+    average_.add(step, v_mean_b, H_v, average_.start(), until);
   }
 }
 
@@ -305,12 +309,16 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
     side_slip_ground_.learn(update_.status(kLateral).last_nis);
   }
   if (update_.status(kForwardSpeed).rejected > forward.rejected) {
+    unseen_motion_.doubt(wheels.stamp, P_);
     dynamics_.loosenFastSlip(P_);
     slipping_until_ = wheels.stamp + fromSeconds(setup_.vehicle.slip_impulse_time_s);
   }
   estimate_.wheel_speed_used = update_.status(kForwardSpeed).accepted > forward.accepted;
   estimate_.slip_factor = slip_ground_.variance();
   estimate_.side_slip_factor = side_slip_ground_.variance();
+  if (update_.status(kZeroVelocity).accepted > zero_updates) {
+    unseen_motion_.settle();
+  }
   estimate_.stationary = at_rest && (!use_zupt_ || update_.status(kZeroVelocity).accepted > zero_updates);
   return corrected;
 }
@@ -326,15 +334,14 @@ PlanarMotion FilterEngine::soundMotion(const WheelMotion& wheels) const {
 }
 
 MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const {
-  const Vector3& lever_b = setup_.lever_imu_to_reference_b;
+  const VelocityJacobian H_v = average_.jacobian();
   const PlanarMotion wheel_motion = soundMotion(wheels);
   MeasurementSet set;
   if (use_wheel_) {
     if (wheels.stamp > slipping_until_ && wheel_monitor_.isUsable()) {
       const double slip_variance = P_.block<3, 3>(kWheelScale, kWheelScale).sum();
-      set.add(kForwardSpeed,
-              forwardSpeedMeasurement(setup_.wheel, wheel_motion.forward_mps, recent_wheel_speed_mps_, motion, state_,
-                                      vehicle_, slip_variance, slip_ground_.variance(), lever_b));
+      set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheel_motion.forward_mps, recent_wheel_speed_mps_,
+                                                     motion, H_v, vehicle_, slip_variance, slip_ground_.variance()));
     }
     if (wheel_motion.has_yaw_rate) {
       set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheel_motion.yaw_rate_radps, motion));
@@ -342,15 +349,15 @@ MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const
   }
   if (use_nonholonomic_) {
     const Measurement lateral =
-        lateralMeasurement(setup_.nonholonomic, motion, state_, vehicle_, side_slip_ground_.variance(), lever_b);
+        lateralMeasurement(setup_.nonholonomic, motion, H_v, vehicle_, side_slip_ground_.variance());
     // Sideways speed that the filter itself is not sure of, as after a gap of the IMU, is no side slip.
     const double uncertainty = lateral.variance(0) + (lateral.H * P_ * lateral.H.transpose())(0, 0);
     if (!isExcessiveSideSlip(setup_.nonholonomic, motion, vehicle_, uncertainty)) {
       set.add(kLateral, lateral);
     }
     if (verticalMeanIsDue()) {
-      set.add(kVertical,
-              verticalMeasurement(setup_.nonholonomic, *vertical_average_.mean(), state_, vehicle_, lever_b));
+      set.add(kVertical, verticalMeasurement(setup_.nonholonomic, *vertical_average_.mean(),
+                                             vertical_average_.jacobian(), vehicle_));
     }
   }
   return set;
@@ -384,8 +391,10 @@ bool FilterEngine::update(MeasurementSet set) {
   if (!error) {
     return false;
   }
-  subtractError(planet_, *error, state_);
+  const ErrorReset reset = correct(planet_, *error, state_);
+  applyReset(reset, P_);
   subtractError(*error, vehicle_);
+  vertical_average_.correct(*error, reset);
   return true;
 }
 

@@ -5,9 +5,7 @@
 namespace slipnav {
 namespace {
 
-constexpr double kSettling_s = 3.0;
-/// Nothing is linear beyond.
-constexpr double kLargestTurn_rad = 10.0 * kPi / 180.0;
+constexpr double kSettling_s = 10.0;
 
 double square(double x) { return x * x; }
 
@@ -15,27 +13,25 @@ double square(double x) { return x * x; }
 
 void UnseenMotion::begin(const NavigationState& state, double gap_s, ErrorCovariance& P) {
   const double turn = degToRad(params_.gap_rate_std_deg_per_s) * gap_s;
-  const double tilt = std::min(turn, degToRad(params_.gap_max_tilt_deg));
   const double speed = params_.gap_accel_std_mps2 * gap_s;
-  P.diagonal().segment<2>(kAttitude).array() += square(tilt);
+  tilt_variance_ = square(std::min(turn, degToRad(params_.gap_max_tilt_deg)));
+  speed_variance_ = square(speed);
   P(kAttitude + 2, kAttitude + 2) += square(turn);
-  P.diagonal().segment<3>(kVelocity).array() += square(speed);
   P.diagonal().segment<3>(kPosition).array() += square(0.5 * speed * gap_s);
-  turn_variance_ += square(std::min(turn, kLargestTurn_rad));
-  end_of_gap_ = state;
+  settled_at_ = state.stamp + fromSeconds(kSettling_s);
+  widen(P);
 }
 
-void UnseenMotion::settle(const NavigationState& state, ErrorCovariance& P) {
-  if (turn_variance_ == 0.0 || toSeconds(state.stamp - end_of_gap_.stamp) < kSettling_s) {
-    return;
+void UnseenMotion::doubt(Nanoseconds stamp, ErrorCovariance& P) {
+  if (stamp < settled_at_) {
+    settled_at_ = stamp + fromSeconds(kSettling_s);
+    widen(P);
   }
-  const Vector3 down = Vector3::UnitZ();
-  ErrorVector direction = ErrorVector::Zero();
-  direction.segment<3>(kAttitude) = down;
-  direction.segment<3>(kVelocity) = down.cross(state.v_eb_n);
-  direction.segment<3>(kPosition) = down.cross(positionDifference(planet_, state.position, end_of_gap_.position));
-  P += turn_variance_ * direction * direction.transpose();
-  turn_variance_ = 0.0;
+}
+
+void UnseenMotion::widen(ErrorCovariance& P) const {
+  P.diagonal().segment<2>(kAttitude).array() += tilt_variance_;
+  P.diagonal().segment<3>(kVelocity).array() += speed_variance_;
 }
 
 }  // namespace slipnav

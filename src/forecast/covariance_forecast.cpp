@@ -83,15 +83,14 @@ ErrorTransition CovarianceForecast::onGround(ErrorTransition transition, const G
 }
 
 CovarianceForecast::Odometry CovarianceForecast::odometry(const DriveStep& step, const GroundOutlook& outlook) const {
-  const Vector3& lever_b = setup_.lever_imu_to_reference_b;
+  const VelocityJacobian H_v = bodyVelocityJacobian(step.state, setup_.lever_imu_to_reference_b);
   BodyMotion motion;
   motion.duration_s = step_s_;
   motion.v_eb_b = Vector3(step.speed_mps, 0.0, 0.0);
   const Measurement forward = forwardSpeedMeasurement(setup_.wheel, step.wheel_speed_mps, step.wheel_speed_mps, motion,
-                                                      step.state, {}, 0.0, step.slip_factor, lever_b);
-  const Measurement lateral =
-      lateralMeasurement(setup_.nonholonomic, motion, step.state, {}, step.side_slip_factor, lever_b);
-  const Measurement vertical = verticalMeasurement(setup_.nonholonomic, motion, step.state, {}, lever_b);
+                                                      H_v, {}, 0.0, step.slip_factor);
+  const Measurement lateral = lateralMeasurement(setup_.nonholonomic, motion, H_v, {}, step.side_slip_factor);
+  const Measurement vertical = verticalMeasurement(setup_.nonholonomic, motion, H_v, {});
   const double wheel_samples = std::max(step.wheel_share, kLeastShare) * samples_per_step_;
   const double vertical_samples =
       step_s_ / std::max(setup_.nonholonomic.vertical_interval_s, step_s_ / samples_per_step_);

@@ -21,7 +21,7 @@ void ImuInputParams::visit(ParameterVisitor& v) {
            "end of the range of each gyro: what reaches it is refused [°/s]");
   v.number("gap_factor", gap_factor, {1.5, 100.0}, "an interval longer than this many usual ones counts as a gap");
   v.number("max_bridged_gap_s", max_bridged_gap_s, {0.0, 60.0},
-           "over a shorter gap the IMU is taken to have gone on evenly; in a longer one, attitude and velocity to have "
+           "over a shorter gap the IMU is taken to have gone on evenly; in a longer one, tilt and velocity to have "
            "stayed [s]");
   v.integer(
       "stuck_samples", stuck_samples, {0.0, 1e6},

@@ -33,11 +33,15 @@ void InsEngine::initialise(const NavigationState& state) {
   initialised_ = true;
 }
 
-ImuInterval InsEngine::unchanging(const NavigationState& state, double duration_s) const {
+ImuInterval InsEngine::steadyTurn(const NavigationState& state, const ImuInterval& interval) const {
   const Planet& planet = strapdown_.planet();
   const Quaternion q_n_to_b = state.q_b_to_n.conjugate();
-  return {state.accel_bias_b - q_n_to_b * planet.gravity_n(state.position),
-          state.gyro_bias_b + q_n_to_b * planet.omega_ie_n(state.position.latitude_rad), duration_s};
+  const Vector3 down_b = q_n_to_b * Vector3::UnitZ();
+  const Vector3 omega_ie_b = q_n_to_b * planet.omega_ie_n(state.position.latitude_rad);
+  const double turn_radps = down_b.dot(interval.omega_ib_b - state.gyro_bias_b - omega_ie_b);
+  const Vector3 turn_b = turn_radps * down_b;
+  return {state.accel_bias_b - q_n_to_b * planet.gravity_n(state.position), state.gyro_bias_b + omega_ie_b + turn_b,
+          interval.duration_s};
 }
 
 void InsEngine::dropUpTo(Nanoseconds stamp) {
@@ -101,7 +105,7 @@ std::optional<InsStep> InsEngine::step() {
     interval.duration_s = duration_s;
   }
   if (current.gap_s > max_bridged_gap_s_) {
-    interval = unchanging(start, interval.duration_s);
+    interval = steadyTurn(start, interval);
   }
   const ImuInterval previous = is_first ? ImuInterval{} : slot(next_ - 1).interval;
   current.state = strapdown_.propagate(start, previous, interval, current.end);

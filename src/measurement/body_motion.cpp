@@ -4,9 +4,9 @@
 
 namespace slipnav {
 
-Eigen::Matrix<double, 3, kErrorStates> bodyVelocityJacobian(const NavigationState& state, const Vector3& lever_b) {
+VelocityJacobian bodyVelocityJacobian(const NavigationState& state, const Vector3& lever_b) {
   const Matrix3 C_n_to_b = state.q_b_to_n.conjugate().toRotationMatrix();
-  Eigen::Matrix<double, 3, kErrorStates> H = Eigen::Matrix<double, 3, kErrorStates>::Zero();
+  VelocityJacobian H = VelocityJacobian::Zero();
   H.block<3, 3>(0, kAttitude) = C_n_to_b * skew(state.v_eb_n);
   H.block<3, 3>(0, kVelocity) = C_n_to_b;
   H.block<3, 3>(0, kGyroBias) = skew(lever_b);

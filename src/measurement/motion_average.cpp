@@ -9,14 +9,15 @@ void MotionAverage::restart(Nanoseconds start) {
   integral_ = BodyMotion{};
 }
 
-void MotionAverage::add(const InsStep& step, const Vector3& v_eb_b, Nanoseconds from, Nanoseconds to) {
+double MotionAverage::add(const InsStep& step, const Vector3& v_eb_b, Nanoseconds from, Nanoseconds to) {
   const double overlap_s = toSeconds(std::min(to, step.state.stamp) - std::max(from, step.start));
   if (overlap_s <= 0.0) {
-    return;
+    return 0.0;
   }
   integral_.duration_s += overlap_s;
   integral_.v_eb_b += overlap_s * v_eb_b;
   integral_.omega_ib_b += overlap_s * step.omega_ib_b;
+  return overlap_s;
 }
 
 std::optional<BodyMotion> MotionAverage::mean() const {

@@ -31,11 +31,10 @@ void NonholonomicParams::visit(ParameterVisitor& v) {
            "slip angle beyond which the lateral constraint is dropped [°]");
 }
 
-Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavigationState& state,
-                               const VehicleState& vehicle, double ground, const Vector3& lever_b) {
+Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
+                               const VehicleState& vehicle, double ground) {
   const double v_x = motion.v_eb_b.x();
   const double angle = vehicle.mount_yaw_rad - vehicle.side_slip;
-  const Eigen::Matrix<double, 3, kErrorStates> H_v = bodyVelocityJacobian(state, lever_b);
   Measurement m(1);
   m.residual(0) = -(motion.v_eb_b.y() + angle * v_x);
   m.H = H_v.row(1) + angle * H_v.row(0);
@@ -52,10 +51,9 @@ bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& mot
          std::abs(motion.v_eb_b.y()) > kSignificant * std::sqrt(lateral_variance);
 }
 
-Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion,
-                                const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b) {
+Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
+                                const VehicleState& vehicle) {
   const double v_x = motion.v_eb_b.x();
-  const Eigen::Matrix<double, 3, kErrorStates> H_v = bodyVelocityJacobian(state, lever_b);
   Measurement m(1);
   m.residual(0) = -(motion.v_eb_b.z() - vehicle.mount_pitch_rad * v_x);
   m.H = H_v.row(2) - vehicle.mount_pitch_rad * H_v.row(0);

@@ -22,13 +22,12 @@ void WheelOdometryParams::visit(ParameterVisitor& v) {
 }
 
 Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
-                                    double slipping_speed_mps, const BodyMotion& motion, const NavigationState& state,
-                                    const VehicleState& vehicle, double slip_variance, double ground,
-                                    const Vector3& lever_b) {
+                                    double slipping_speed_mps, const BodyMotion& motion, const VelocityJacobian& H_v,
+                                    const VehicleState& vehicle, double slip_variance, double ground) {
   const double slip = vehicle.wheel_scale + vehicle.slow_slip + vehicle.fast_slip;
   Measurement m(1);
   m.residual(0) = wheel_speed_mps - (motion.v_eb_b.x() + slipping_speed_mps * slip);
-  m.H = bodyVelocityJacobian(state, lever_b).row(0);
+  m.H = H_v.row(0);
   m.H(0, kWheelScale) = slipping_speed_mps;
   m.H(0, kSlowSlip) = slipping_speed_mps;
   m.H(0, kFastSlip) = slipping_speed_mps;

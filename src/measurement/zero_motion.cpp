@@ -36,8 +36,8 @@ void Tremor::learn(const Vector3& velocity_n, double predicted_variance) {
 
 Measurement zeroVelocityMeasurement(double variance, const NavigationState& state) {
   Measurement m(3);
-  m.residual = -state.v_eb_n;
-  m.H.block<3, 3>(0, kVelocity).setIdentity();
+  m.residual = -(state.q_b_to_n.conjugate() * state.v_eb_n);
+  m.H = bodyVelocityJacobian(state, Vector3::Zero());
   m.variance.setConstant(variance);
   return m;
 }

@@ -67,15 +67,14 @@ void wheelUpdate(benchmark::State& state) {
   ErrorCovariance P = drive().initial.P;
   GatedUpdate update(setup.filter.filter);
   const BodyMotion motion{0.1, step.state.q_b_to_n.conjugate() * step.state.v_eb_n, step.omega_ib_b};
-  const Vector3& lever_b = setup.filter.lever_imu_to_reference_b;
+  const VelocityJacobian H_v = bodyVelocityJacobian(step.state, setup.filter.lever_imu_to_reference_b);
   const VehicleState vehicle;
   for (auto _ : state) {
     MeasurementSet set;
-    set.add(kForwardSpeed,
-            forwardSpeedMeasurement(setup.filter.wheel, 0.8, 0.8, motion, step.state, vehicle, 0.0, lever_b));
+    set.add(kForwardSpeed, forwardSpeedMeasurement(setup.filter.wheel, 0.8, 0.8, motion, H_v, vehicle, 0.0, 1.0));
     set.add(kYawRate, yawRateMeasurement(setup.filter.wheel, 0.0, motion));
-    set.add(kLateral, lateralMeasurement(setup.filter.nonholonomic, motion, step.state, vehicle, lever_b));
-    set.add(kVertical, verticalMeasurement(setup.filter.nonholonomic, motion, step.state, vehicle, lever_b));
+    set.add(kLateral, lateralMeasurement(setup.filter.nonholonomic, motion, H_v, vehicle, 1.0));
+    set.add(kVertical, verticalMeasurement(setup.filter.nonholonomic, motion, H_v, vehicle));
     ErrorCovariance updated = P;
     benchmark::DoNotOptimize(update.apply(set, step.state.stamp, updated));
     benchmark::DoNotOptimize(updated);

@@ -71,22 +71,35 @@ class Judge {
   double count_ = 0.0;
 };
 
+void pushWithoutImu(const sim::Measurements& measurements, const WheelGeometry& geometry, Pipeline& pipeline) {
+  if (measurements.wheel) {
+    pipeline.push(toWheelMotion(geometry, *measurements.wheel));
+  }
+}
+
 }  // namespace
 
-DriveResult runDrive(const Config& config, const std::string& policy) {
+DriveResult runDrive(const Config& config, const std::string& policy, const ImuGap& gap) {
   const Planet planet = Planet::byName(config.planet);
   const WheelGeometry geometry = config.wheelGeometry();
   Judge judge(planet, config.imu.mount.position_b());
   Pipeline pipeline(planet, config.navigation(),
                     [&judge](const Estimate& estimate, const ErrorCovariance& P) { judge.compare(estimate, P); });
   const std::unique_ptr<StopPolicy> stops = makeStopPolicy(policy, config.stop);
+  Nanoseconds begin = 0;
   simulateDrive(config.simulator, planet, *stops,
                 [&](const sim::Measurements& measurements, const sim::TruthState& truth) {
                   judge.addTruth(truth);
                   if (config.initialization.source == "truth" && !pipeline.initial() && truth.distance_m > 12.0) {
                     pipeline.setTruth(toNavState(truth, planet, config.imu.mount.position_b()), true);
                   }
-                  pushMeasurements(measurements, geometry, pipeline);
+                  begin = begin == 0 && pipeline.initial() ? truth.stamp : begin;
+                  const double since_gap_s = toSeconds(truth.stamp - begin) - gap.begin_s;
+                  if (begin != 0 && since_gap_s >= 0.0 && since_gap_s < gap.duration_s) {
+                    pushWithoutImu(measurements, geometry, pipeline);
+                  } else {
+                    pushMeasurements(measurements, geometry, pipeline);
+                  }
                 });
   if (!pipeline.initial()) {
     throw std::runtime_error("not initialised: " + pipeline.initializer().progress());

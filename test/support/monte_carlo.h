@@ -29,7 +29,13 @@ struct DriveResult {
   ErrorVector final_sigma = ErrorVector::Zero();
 };
 
+/// When the IMU of a drive is silent.
+struct ImuGap {
+  double begin_s = 0.0;  ///< after the initialisation
+  double duration_s = 0.0;
+};
+
 /// One drive of config.simulator under the policy; truth is the simulator's own state.
-DriveResult runDrive(const Config& config, const std::string& policy);
+DriveResult runDrive(const Config& config, const std::string& policy, const ImuGap& gap = {});
 
 }  // namespace slipnav::test

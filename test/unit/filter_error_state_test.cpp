@@ -68,6 +68,69 @@ TEST(ErrorState, PositionsCompareAcrossTheDateLine) {
   EXPECT_NEAR(apart.y(), 2e-7 * earth.equatorialRadius(), 1e-6);
 }
 
+/// However large the error is: δψ and ξ = v̂ − exp[δψ×] v describe it exactly.
+TEST(ErrorState, ACorrectionTakesALargeErrorOutWhole) {
+  const Planet earth = Planet::byName("earth");
+  sim::RandomStream random(4, "states");
+  for (int i = 0; i < 20; ++i) {
+    const NavigationState truth = randomState(random, 1.0);
+    const Vector3 attitude = 0.2 * random.normal3();
+    const Vector3 xi = 0.5 * random.normal3();
+    NavigationState estimate = truth;
+    estimate.q_b_to_n = quaternionFromRotationVector(attitude) * truth.q_b_to_n;
+    estimate.v_eb_n = quaternionFromRotationVector(attitude) * truth.v_eb_n + xi;
+    ErrorVector error = ErrorVector::Zero();
+    error.segment<3>(kAttitude) = attitude;
+    error.segment<3>(kVelocity) = xi + attitude.cross(estimate.v_eb_n);
+    correct(earth, error, estimate);
+    EXPECT_LT(errorBetween(earth, estimate, truth).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+/// The first-order part of a correction is the plain difference, and its reset does nothing when there is no error.
+TEST(ErrorState, ASmallCorrectionIsThePlainDifference) {
+  const Planet earth = Planet::byName("earth");
+  sim::RandomStream random(5, "states");
+  const NavigationState before = randomState(random, 1.0);
+  ErrorVector error = ErrorVector::Zero();
+  for (int k = 0; k < kNavStates; ++k) {
+    error(k) = 1e-5 * random.normal();
+  }
+  NavigationState plain = before;
+  subtractError(earth, error, plain);
+  NavigationState invariant = before;
+  correct(earth, error, invariant);
+  EXPECT_LT((invariant.v_eb_n - plain.v_eb_n).norm(), 1e-9);
+  EXPECT_GT((invariant.v_eb_n - plain.v_eb_n).norm(), 0.0);
+  NavigationState same = before;
+  EXPECT_LT((correct(earth, ErrorVector::Zero(), same) - ErrorReset::Identity()).norm(), 1e-12);
+}
+
+/// A turn of everything about the vertical at the point of linearisation before becomes one at the point after.
+TEST(ErrorState, AResetKeepsTheHeadingUnobservable) {
+  const Planet earth = Planet::byName("earth");
+  sim::RandomStream random(6, "states");
+  NavigationState state = randomState(random, 1.0);
+  const NavigationState before = state;
+  ErrorVector error = ErrorVector::Zero();
+  error.segment<3>(kVelocity) = random.normal3();
+  error.segment<3>(kPosition) = random.normal3();
+  const ErrorReset reset = correct(earth, error, state);
+  const Vector3 down = Vector3::UnitZ();
+  const auto turn = [&](const NavigationState& about) {
+    Eigen::Matrix<double, 9, 1> direction;
+    direction << down, down.cross(about.v_eb_n), down.cross(positionDifference(earth, about.position, before.position));
+    return direction;
+  };
+  EXPECT_LT((reset * turn(before) - turn(state)).norm(), 1e-6);
+  EXPECT_GT((turn(before) - turn(state)).norm(), 0.1);
+  // The same holds for what is known: P of that direction alone stays of that direction alone.
+  ErrorCovariance P = ErrorCovariance::Zero();
+  P.topLeftCorner<9, 9>() = turn(before) * turn(before).transpose();
+  applyReset(reset, P);
+  EXPECT_LT((P.topLeftCorner<9, 9>() - turn(state) * turn(state).transpose()).norm(), 1e-5);
+}
+
 TEST(ErrorState, AttitudeStaysAUnitQuaternion) {
   const Planet earth = Planet::byName("earth");
   sim::RandomStream random(3, "states");

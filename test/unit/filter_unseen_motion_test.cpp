@@ -14,20 +14,17 @@ class UnseenMotionTest : public ::testing::Test {
     params_.gap_accel_std_mps2 = 0.5;
     params_.gap_max_tilt_deg = 3.0;
     state_.stamp = 1'000'000'000;
-    state_.position = {0.7, 0.1, 200.0};
-    state_.v_eb_n = {0.6, -0.2, 0.0};
   }
 
   double sigma(int index) const { return std::sqrt(P_(index, index)); }
 
-  Planet planet_ = Planet::byName("earth");
   FilterParams params_;
   NavigationState state_;
   ErrorCovariance P_ = ErrorCovariance::Zero();
 };
 
 TEST_F(UnseenMotionTest, AddsWhatMayHaveHappened) {
-  UnseenMotion unseen(planet_, params_);
+  UnseenMotion unseen(params_);
   unseen.begin(state_, 1.0, P_);
   EXPECT_NEAR(sigma(kAttitude), degToRad(2.0), 1e-12);
   EXPECT_NEAR(sigma(kAttitude + 2), degToRad(2.0), 1e-12);
@@ -36,39 +33,37 @@ TEST_F(UnseenMotionTest, AddsWhatMayHaveHappened) {
 }
 
 TEST_F(UnseenMotionTest, TheGroundLimitsTheTiltButNotTheHeading) {
-  UnseenMotion unseen(planet_, params_);
+  UnseenMotion unseen(params_);
   unseen.begin(state_, 5.0, P_);
   EXPECT_NEAR(sigma(kAttitude + 1), degToRad(3.0), 1e-12);
   EXPECT_NEAR(sigma(kAttitude + 2), degToRad(10.0), 1e-12);
 }
 
-TEST_F(UnseenMotionTest, LaterTheTurnComesOnceAsARotationAboutTheVertical) {
-  UnseenMotion unseen(planet_, params_);
+TEST_F(UnseenMotionTest, SoonAfterAGapAContradictionCastsDoubtOnTiltAndVelocity) {
+  UnseenMotion unseen(params_);
   unseen.begin(state_, 1.0, P_);
   P_.setZero();
-  state_.stamp += fromSeconds(2.9);
-  unseen.settle(state_, P_);
+  unseen.doubt(state_.stamp + fromSeconds(9.9), P_);
+  EXPECT_NEAR(sigma(kAttitude), degToRad(2.0), 1e-12);
+  EXPECT_NEAR(sigma(kVelocity + 2), 0.5, 1e-12);
+  EXPECT_EQ(sigma(kAttitude + 2), 0.0);
+  EXPECT_EQ(sigma(kPosition), 0.0);
+  P_.setZero();
+  unseen.doubt(state_.stamp + fromSeconds(19.0), P_);  // within the same time of the last doubt
+  EXPECT_FALSE(P_.isZero());
+  P_.setZero();
+  unseen.doubt(state_.stamp + fromSeconds(30.0), P_);
   EXPECT_TRUE(P_.isZero());
-  state_.stamp += fromSeconds(0.2);
-  unseen.settle(state_, P_);
-  EXPECT_NEAR(sigma(kAttitude + 2), degToRad(2.0), 1e-12);
-  EXPECT_NEAR(sigma(kVelocity), degToRad(2.0) * 0.2, 1e-12);
-  EXPECT_NEAR(sigma(kVelocity + 1), degToRad(2.0) * 0.6, 1e-12);
-  // δv = δψ × v: a heading error to the right turns the velocity to the right
-  EXPECT_GT(P_(kAttitude + 2, kVelocity + 1), 0.0);
-  EXPECT_GT(P_(kAttitude + 2, kVelocity), 0.0);
-  const ErrorCovariance once = P_;
-  unseen.settle(state_, P_);
-  EXPECT_EQ(P_, once);
 }
 
-TEST_F(UnseenMotionTest, ResetForgetsTheTurn) {
-  UnseenMotion unseen(planet_, params_);
+TEST_F(UnseenMotionTest, WithoutAGapOrAfterAStandstillNothingIsDoubted) {
+  UnseenMotion unseen(params_);
+  unseen.doubt(state_.stamp, P_);
+  EXPECT_TRUE(P_.isZero());
   unseen.begin(state_, 1.0, P_);
-  unseen.reset();
+  unseen.settle();
   P_.setZero();
-  state_.stamp += fromSeconds(10.0);
-  unseen.settle(state_, P_);
+  unseen.doubt(state_.stamp, P_);
   EXPECT_TRUE(P_.isZero());
 }
 

@@ -25,6 +25,8 @@ NavigationState eastbound() {
   return state;
 }
 
+VelocityJacobian jacobian(const NavigationState& state) { return bodyVelocityJacobian(state, Vector3::Zero()); }
+
 const BodyMotion kDriving{0.1, Vector3(kSpeed, 0.0, 0.0), Vector3::Zero()};
 
 NavigationState corrected(const Measurement& measurement, const NavigationState& state) {
@@ -67,7 +69,7 @@ TEST(MeasurementSigns, ASidewaysVelocityIsTakenBack) {
   NavigationState state = eastbound();
   state.v_eb_n.x() = -0.1;  // south: to the right of an eastbound rover
   const BodyMotion motion{0.1, Vector3(kSpeed, 0.1, 0.0), Vector3::Zero()};
-  const Measurement m = lateralMeasurement({}, motion, state, {}, 1.0, Vector3::Zero());
+  const Measurement m = lateralMeasurement({}, motion, jacobian(state), {}, 1.0);
   EXPECT_NEAR(m.residual(0), -0.1, 1e-12);
   EXPECT_GT(corrected(m, state).v_eb_n.x(), state.v_eb_n.x());
 }
@@ -76,7 +78,7 @@ TEST(MeasurementSigns, ASinkingVelocityIsTakenBack) {
   NavigationState state = eastbound();
   state.v_eb_n.z() = 0.1;
   const BodyMotion motion{0.1, Vector3(kSpeed, 0.0, 0.1), Vector3::Zero()};
-  const Measurement m = verticalMeasurement({}, motion, state, {}, Vector3::Zero());
+  const Measurement m = verticalMeasurement({}, motion, jacobian(state), {});
   EXPECT_NEAR(m.residual(0), -0.1, 1e-12);
   EXPECT_LT(corrected(m, state).v_eb_n.z(), 0.1);
 }
@@ -133,9 +135,9 @@ TEST(MeasurementNoise, GrowsWithSpeedAndTurns) {
   ground.vertical_turn_std_m = 0.2;
   const double v_x = motion.v_eb_b.x();
   ASSERT_GT(v_x, 0.1);
-  EXPECT_NEAR(lateralMeasurement(ground, motion, state, {}, 0.25, Vector3::Zero()).variance(0),
+  EXPECT_NEAR(lateralMeasurement(ground, motion, jacobian(state), {}, 0.25).variance(0),
               0.01 * 0.01 + 0.25 * std::pow(0.02 * v_x, 2) + 0.06 * 0.06, 1e-12);
-  EXPECT_NEAR(verticalMeasurement(ground, motion, state, {}, Vector3::Zero()).variance(0),
+  EXPECT_NEAR(verticalMeasurement(ground, motion, jacobian(state), {}).variance(0),
               0.03 * 0.03 + std::pow(0.04 * v_x, 2) + 0.1 * 0.1, 1e-12);
 }
 

@@ -46,6 +46,20 @@ struct VehicleState {
 void subtractError(const Planet& planet, const ErrorVector& error, NavigationState& state);
 void subtractError(const ErrorVector& error, VehicleState& state);
 
+/// ∂(error of attitude, velocity and position about the corrected state)/∂(error that was left about the one before).
+using ErrorReset = Eigen::Matrix<double, 9, 9>;
+
+/// Takes an error out that may be large, as after a gap of the IMU: what is linear is not δv but the velocity error as
+/// it is when the attitude error is taken out first, ξ = v̂ − R v with R = exp[δψ×], of which the velocity in body axes
+/// is an exactly linear function (the right-invariant error: A. Barrau, S. Bonnabel, The invariant extended Kalman
+/// filter as a stable observer, IEEE TAC 62(4), 2017). The reset keeps what is known in those terms while the point of
+/// linearisation moves; without it the filter believes to learn its heading, which nothing observes. It leaves out the
+/// turn of δψ by half the correction: a heading that is not known does not change what is known of the tilt.
+ErrorReset correct(const Planet& planet, const ErrorVector& error, NavigationState& state);
+
+/// P after the state has been corrected.
+void applyReset(const ErrorReset& reset, ErrorCovariance& P);
+
 /// Makes one error unknown by `variance` and independent of all others.
 void forgetError(int index, double variance, ErrorCovariance& P);
 

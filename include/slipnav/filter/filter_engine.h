@@ -15,10 +15,10 @@
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/filter/gated_update.h"
+#include "slipnav/filter/mean_motion.h"
 #include "slipnav/filter/unseen_motion.h"
 #include "slipnav/filter/wheel_cadence.h"
 #include "slipnav/ins/ins_engine.h"
-#include "slipnav/measurement/motion_average.h"
 #include "slipnav/measurement/position_fix.h"
 #include "slipnav/slip/stationary_detector.h"
 
@@ -115,8 +115,8 @@ class FilterEngine {
   Nanoseconds complete_until_ = 0;
   Nanoseconds slipping_until_ = 0;       ///< a slip impulse makes the wheel speed useless until then
   double recent_wheel_speed_mps_ = 0.0;  ///< of the samples before the present one, smoothed
-  MotionAverage average_;                ///< over the wheel interval that is open
-  MotionAverage vertical_average_;       ///< over the wheel intervals since the last vertical constraint
+  MeanMotion average_;                   ///< over the wheel interval that is open
+  MeanMotion vertical_average_;          ///< over the wheel intervals since the last vertical constraint
   Estimate estimate_;
 };
 

@@ -23,8 +23,8 @@ struct FilterParams {
   double max_rejection_s = 3.0;
   double max_wait_s = 1.0;
   double max_wheel_interval_s = 0.5;
-  double gap_rate_std_deg_per_s = 5.0;
-  double gap_accel_std_mps2 = 0.5;
+  double gap_rate_std_deg_per_s = 2.0;
+  double gap_accel_std_mps2 = 0.3;
   double gap_max_tilt_deg = 4.0;
   GroundFactorParams ground;
   void visit(ParameterVisitor& v);

@@ -1,33 +1,32 @@
 #pragma once
 /// What a vehicle may have done while its IMU was silent, as covariance.
 
-#include "slipnav/earth/planet.h"
 #include "slipnav/filter/error_state.h"
 #include "slipnav/filter/filter_params.h"
 
 namespace slipnav {
 
-/// Widens the covariance at the end of a gap, and once more when the filter has settled after it.
+/// Widens the covariance at the end of a gap, and again when it shows that this was not enough.
 class UnseenMotion {
  public:
-  UnseenMotion(const Planet& planet, const FilterParams& params) : planet_(planet), params_(params) {}
+  explicit UnseenMotion(const FilterParams& params) : params_(params) {}
 
-  void reset() { turn_variance_ = 0.0; }
+  /// Nothing is unsettled any more.
+  void settle() { settled_at_ = 0; }
 
   /// A gap of `gap_s` ends at `state`: what is known of attitude, velocity and position becomes less certain.
   void begin(const NavigationState& state, double gap_s, ErrorCovariance& P);
 
-  /// Adds the turn in the last gap once more when `state` is long enough after it. Heading cannot be observed; but the
-  /// filter believes to observe it while tilt and speed are being found again, since each correction changes the point
-  /// about which it is linear. What it has lost in this way it gets back when they have settled: as a rotation of
-  /// attitude, velocity and way since the gap about the vertical, the direction that no measurement sees.
-  void settle(const NavigationState& state, ErrorCovariance& P);
+  /// A measurement contradicts: if that is soon after a gap, what was learned of tilt and velocity since is doubted.
+  void doubt(Nanoseconds stamp, ErrorCovariance& P);
 
  private:
-  Planet planet_;
+  void widen(ErrorCovariance& P) const;
+
   FilterParams params_;
-  double turn_variance_ = 0.0;  ///< not yet added [rad²]
-  NavigationState end_of_gap_;
+  double tilt_variance_ = 0.0;   ///< [rad²]
+  double speed_variance_ = 0.0;  ///< [m²/s²]
+  Nanoseconds settled_at_ = 0;
 };
 
 }  // namespace slipnav

@@ -67,8 +67,8 @@ class InsEngine {
   };
 
   Slot& slot(std::uint64_t sequence) { return ring_[sequence & (ring_.size() - 1)]; }
-  /// What an IMU measures while attitude and velocity stay as they are.
-  ImuInterval unchanging(const NavigationState& state, double duration_s) const;
+  /// What an IMU measures while the vehicle turns about the vertical as in `interval`, and all else stays as it is.
+  ImuInterval steadyTurn(const NavigationState& state, const ImuInterval& interval) const;
   void append(const Slot& slot);
   void makeRoom();
   void dropUpTo(Nanoseconds stamp);

@@ -13,9 +13,12 @@ struct BodyMotion {
   Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free [rad/s]
 };
 
+/// ∂(velocity of the reference point, IMU axes)/∂(error state).
+using VelocityJacobian = Eigen::Matrix<double, 3, kErrorStates>;
+
 /// ∂(v_eb_b at the reference point)/∂(error state): Cᵀδv + Cᵀ[v×]δψ + [l×]δb_g (Groves 16.58 and following).
 /// @param lever_b from the IMU to the reference point, body axes [m]
-Eigen::Matrix<double, 3, kErrorStates> bodyVelocityJacobian(const NavigationState& state, const Vector3& lever_b);
+VelocityJacobian bodyVelocityJacobian(const NavigationState& state, const Vector3& lever_b);
 
 /// Velocity of the point at `lever_b` from the IMU, body axes [m/s].
 Vector3 bodyVelocity(const NavigationState& state, const Vector3& omega_eb_b, const Vector3& lever_b);

@@ -18,7 +18,11 @@ class MotionAverage {
 
   /// Adds the part of a step that lies in [from, to], with the step's mean motion.
   /// @param v_eb_b mean velocity of the reference point over the step, body axes
-  void add(const InsStep& step, const Vector3& v_eb_b, Nanoseconds from, Nanoseconds to);
+  /// @return how long that part is [s]
+  double add(const InsStep& step, const Vector3& v_eb_b, Nanoseconds from, Nanoseconds to);
+
+  /// Corrects what was added: the integral of the velocity changes by `travel_b` [m].
+  void addTravel(const Vector3& travel_b) { integral_.v_eb_b += travel_b; }
 
   /// Mean over what was added; nothing when that is empty.
   std::optional<BodyMotion> mean() const;

@@ -22,9 +22,9 @@ struct NonholonomicParams {
 };
 
 /// Lateral speed of the reference point: v_y + ψ_m v_x − tan β v_x = 0.
-/// @param ground on the variance of the sway, see GroundFactor
-Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const NavigationState& state,
-                               const VehicleState& vehicle, double ground, const Vector3& lever_b);
+/// @param H_v of motion.v_eb_b; @param ground on the variance of the sway, see GroundFactor
+Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
+                               const VehicleState& vehicle, double ground);
 
 /// Whether the rover slides sideways so much that the lateral constraint says nothing: the slip angle is beyond its
 /// limit and the lateral speed is more than the constraint's own noise can explain.
@@ -34,8 +34,8 @@ bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& mot
 /// Vertical speed of the reference point: v_z − θ_m v_x = 0. What the body rises over a stone it comes down again: the
 /// noise is that of a difference of heights. Means over `vertical_interval_s` are taken, long enough for it to pass for
 /// white.
-Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion,
-                                const NavigationState& state, const VehicleState& vehicle, const Vector3& lever_b);
+Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
+                                const VehicleState& vehicle);
 
 /// Slip angle β = atan2(v_y, v_x) of the reference point in vehicle axes, forward-right-down [rad]. In reverse it is
 /// counted from the backward axis, so that straight driving is zero either way.

@@ -28,12 +28,11 @@ struct WheelOdometryParams {
 /// told apart would turn with every update and the filter would believe that it knows them.
 /// While the rover brakes or accelerates ū is not u; what that does to the product counts as noise.
 /// @param wheel_speed_mps u; @param slipping_speed_mps ū; @param motion means over the odometry interval
-/// @param slip_variance of the estimated κ + s_slow + s_fast; @param lever_b IMU to reference point
+/// @param H_v of motion.v_eb_b; @param slip_variance of the estimated κ + s_slow + s_fast
 /// @param ground on the variance of slip that is new in every sample, see GroundFactor
 Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
-                                    double slipping_speed_mps, const BodyMotion& motion, const NavigationState& state,
-                                    const VehicleState& vehicle, double slip_variance, double ground,
-                                    const Vector3& lever_b);
+                                    double slipping_speed_mps, const BodyMotion& motion, const VelocityJacobian& H_v,
+                                    const VehicleState& vehicle, double slip_variance, double ground);
 
 /// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z.
 Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps,

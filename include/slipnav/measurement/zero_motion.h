@@ -38,7 +38,8 @@ class Tremor {
   double variance_;
 };
 
-/// v_eb^n = 0, three rows, with the variance of the tremor on each axis.
+/// v_eb^b = 0, three rows, with the variance of the tremor on each axis. In body axes: a velocity there says nothing
+/// about the heading, wherever the estimate is linearised.
 Measurement zeroVelocityMeasurement(double variance, const NavigationState& state);
 
 /// ω_ib^b = C_n_to_b ω_ie^n, three rows. The noise is that of the gyros averaged over the interval, with

@@ -1,0 +1,68 @@
+/// Is the covariance honest after the IMU has been silent on rough ground?
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <future>
+#include <vector>
+
+#include "monte_carlo.h"
+
+namespace slipnav::test {
+namespace {
+
+constexpr int kDrives = 24;
+constexpr double kDistance_m = 150.0;
+constexpr double kEarliest_s = 60.0;
+/// Gaps begin at different times of the stop cycle.
+constexpr double kShift_s = 0.7;
+/// Not below: a covariance that is far too large says nothing either.
+constexpr Range kAnees{0.15, 1.5};
+
+std::vector<DriveResult> drives(double gap_s) {
+  const auto part = [gap_s](int first) {
+    std::vector<DriveResult> results;
+    for (int seed = first; seed <= kDrives; seed += 2) {
+      Config config;
+      config.simulator.seed = 3000 + seed;
+      config.simulator.drive.distance_m = kDistance_m;
+      results.push_back(runDrive(config, "periodic:12:3", {kEarliest_s + kShift_s * seed, gap_s}));
+    }
+    return results;
+  };
+  std::future<std::vector<DriveResult>> odd = std::async(std::launch::async, part, 1);
+  std::vector<DriveResult> all = part(2);
+  for (const DriveResult& result : odd.get()) {
+    all.push_back(result);
+  }
+  return all;
+}
+
+class ImuGaps : public ::testing::TestWithParam<double> {};
+
+TEST_P(ImuGaps, TheCovarianceSaysWhatTheyCost) {
+  double attitude = 0.0;
+  double position = 0.0;
+  double coverage_pct = 0.0;
+  std::vector<double> final_m;
+  for (const DriveResult& result : drives(GetParam())) {
+    const ErrorVector normalised = result.final_error.cwiseQuotient(result.final_sigma.cwiseMax(1e-12));
+    attitude += normalised.segment<3>(kAttitude).squaredNorm() / (3.0 * kDrives);
+    position += normalised.segment<2>(kPosition).squaredNorm() / (2.0 * kDrives);
+    coverage_pct += result.coverage_3sigma_pct / kDrives;
+    final_m.push_back(result.final_error.segment<2>(kPosition).norm());
+  }
+  std::sort(final_m.begin(), final_m.end());
+  std::printf("gap of %.1f s: attitude %.2f position %.2f, coverage %.2f %%, final error %.2f m (worst %.2f m)\n",
+              GetParam(), attitude, position, coverage_pct, final_m[final_m.size() / 2], final_m.back());
+  EXPECT_GE(position, kAnees.min);
+  EXPECT_LE(position, kAnees.max);
+  EXPECT_LE(attitude, kAnees.max);
+  EXPECT_GE(coverage_pct, 98.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Durations, ImuGaps, ::testing::Values(0.1, 0.3, 1.0, 2.0, 5.0));
+
+}  // namespace
+}  // namespace slipnav::test
