@@ -3,6 +3,7 @@
 find_package(catkin REQUIRED COMPONENTS
   diagnostic_msgs
   diagnostic_updater
+  dynamic_reconfigure
   geometry_msgs
   message_generation
   nav_msgs
@@ -48,6 +49,7 @@ catkin_package(
   LIBRARIES ${exported_libraries}
   CATKIN_DEPENDS
     diagnostic_msgs
+    dynamic_reconfigure
     geometry_msgs
     message_runtime
     nav_msgs

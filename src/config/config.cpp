@@ -75,6 +75,16 @@ NavigationSetup Config::navigation() const {
   return setup;
 }
 
+void Config::requireConsistent() const {
+  if (zero_motion.least_velocity_std_mps > zero_motion.largest_velocity_std_mps) {
+    throw std::invalid_argument(
+        "'zero_motion.least_velocity_std_mps' must not be above 'zero_motion.largest_velocity_std_mps'");
+  }
+  if (forecast.horizon_s < forecast.step_s) {
+    throw std::invalid_argument("'forecast.horizon_s' must not be below 'forecast.step_s'");
+  }
+}
+
 Config Config::load(const std::vector<std::string>& yaml_files, const std::vector<Override>& overrides) {
   YAML::Node merged(YAML::NodeType::Map);
   for (const std::string& file : yaml_files) {
@@ -85,6 +95,7 @@ Config Config::load(const std::vector<std::string>& yaml_files, const std::vecto
   }
   Config config;
   readParameters(merged, config);
+  config.requireConsistent();
   return config;
 }
 

@@ -8,6 +8,9 @@
 namespace slipnav {
 namespace {
 
+/// Marks what may be changed while the nodelets run.
+const char* const kTunable = "⟳";
+
 std::string code(const std::string& text) { return text.empty() ? "" : "`" + text + "`"; }
 
 std::string joined(const std::vector<std::string>& items) {
@@ -29,7 +32,7 @@ std::string escaped(const std::string& text) {
 
 }  // namespace
 
-MarkdownWriter::MarkdownWriter() { openSection("", ""); }
+MarkdownWriter::MarkdownWriter(std::set<std::string> tunable) : tunable_(std::move(tunable)) { openSection("", ""); }
 
 void MarkdownWriter::number(const char* name, double& value, Range range, const char* meaning) {
   row(name, formatNumber(value), describeRange(range), meaning);
@@ -63,6 +66,9 @@ void MarkdownWriter::words(const char* name, std::vector<std::string>& value,
 
 std::string MarkdownWriter::markdown() const {
   std::string text = "# Configuration reference\n\n";
+  if (!tunable_.empty()) {
+    text += kTunable + std::string(": may be changed while the nodelets run, see [nodelets](nodelets.md).\n\n");
+  }
   for (const Section& section : sections_) {
     if (!section.key.empty()) {
       text += "## " + code(section.key) + "\n\n" + section.meaning + "\n\n";
@@ -111,7 +117,8 @@ void MarkdownWriter::closeSection() {
 void MarkdownWriter::row(const std::string& name, const std::string& value, const std::string& allowed,
                          const std::string& meaning) {
   if (rows_wanted_) {
-    sections_[open_.back()].rows += "| " + code(escaped(name)) + " | " + code(escaped(value)) + " | " +
+    const std::string mark = tunable_.count(path_.key(name)) > 0 ? std::string(" ") + kTunable : "";
+    sections_[open_.back()].rows += "| " + code(escaped(name)) + mark + " | " + code(escaped(value)) + " | " +
                                     escaped(allowed) + " | " + escaped(meaning) + " |\n";
   }
 }

@@ -58,6 +58,13 @@ void FilterEngine::reset() {
   complete_until_ = 0;
 }
 
+void FilterEngine::retune(const FilterSetup& setup) {
+  setup_ = setup;
+  detector_.retune(setup.stationary);
+  update_.retune(setup.filter);
+  tremor_.retune(setup.zero);
+}
+
 void FilterEngine::initialise(const InitialState& initial) {
   initialised_ = true;
   state_ = initial.nav;

@@ -2,7 +2,10 @@
 
 namespace slipnav {
 
-GatedUpdate::GatedUpdate(const FilterParams& params) : max_rejection_s_(params.max_rejection_s), gate_{}, zero_gate_{} {
+GatedUpdate::GatedUpdate(const FilterParams& params) : max_rejection_s_(0.0), gate_{}, zero_gate_{} { retune(params); }
+
+void GatedUpdate::retune(const FilterParams& params) {
+  max_rejection_s_ = params.max_rejection_s;
   for (int rows = 1; rows <= kMaxMeasurementRows; ++rows) {
     gate_[static_cast<std::size_t>(rows)] = chiSquareQuantile(rows, params.gate_alpha);
     zero_gate_[static_cast<std::size_t>(rows)] = chiSquareQuantile(rows, params.zero_velocity_gate_alpha);

@@ -31,6 +31,12 @@ Forecaster::Forecaster(const Planet& planet, const FilterSetup& setup, const For
       covariance_(planet, setup, params.step_s, params.wheel_interval_s),
       outlook_(covariance_.assumption()) {}
 
+void Forecaster::retune(const FilterSetup& setup, const ForecastParams& params) {
+  setup_ = setup;
+  params_ = params;
+  covariance_.retune(setup);
+}
+
 void Forecaster::reset() {
   model_.reset();
   outlook_ = covariance_.assumption();

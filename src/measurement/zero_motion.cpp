@@ -27,6 +27,13 @@ Tremor::Tremor(const ZeroMotionParams& params)
       gain_(1.0 / params.adaptation_samples),
       variance_(square(params.velocity_std_mps)) {}
 
+void Tremor::retune(const ZeroMotionParams& params) {
+  least_variance_ = square(params.least_velocity_std_mps);
+  largest_variance_ = square(params.largest_velocity_std_mps);
+  gain_ = 1.0 / params.adaptation_samples;
+  variance_ = std::clamp(variance_, least_variance_, largest_variance_);
+}
+
 void Tremor::learn(const Vector3& velocity_n, double predicted_variance) {
   const double innovation2 = std::min(velocity_n.squaredNorm() / 3.0, largest_variance_);
   const double share = variance_ / (variance_ + predicted_variance);

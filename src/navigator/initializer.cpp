@@ -72,6 +72,11 @@ void Initializer::reset() {
   truth_.reset();
 }
 
+void Initializer::retune(const FilterSetup& setup) {
+  setup_ = setup;
+  detector_.retune(setup.stationary);
+}
+
 void Initializer::setTruth(const NavigationState& truth, bool has_attitude) {
   truth_ = truth;
   truth_has_attitude_ = has_attitude;

@@ -54,12 +54,15 @@ class FilterNodelet : public CoreNodelet {
     listen<SlipForecast>(config.topics.slip_forecast, &FilterNodelet::onSlipForecast);
     serve("save_checkpoint", &FilterNodelet::saveCheckpoint);
     serve("set_state", &FilterNodelet::setState);
+    offerTuning("Filter");
   }
 
   void advertise(const Config& config) override {
     estimates_ = std::make_unique<EstimatePublisher>(getNodeHandle(), config);
     correction_publisher_ = publisher<FilterCorrection>(kCorrectionTopic);
   }
+
+  void retune(const Config& config) override { engine_->retune(config.navigation().filter); }
 
   void onInitialState(const StartState::ConstPtr& message) {
     if (message->start <= start_) {

@@ -29,7 +29,12 @@ class ForecastNodelet : public CoreNodelet {
     forecaster_.emplace(Planet::byName(config.planet), config.navigation().filter, config.forecast);
   }
 
-  void subscribe(const Config&) override { listen<ForecastInput>(kForecastInputTopic, &ForecastNodelet::onInput); }
+  void subscribe(const Config&) override {
+    listen<ForecastInput>(kForecastInputTopic, &ForecastNodelet::onInput);
+    offerTuning("Forecast");
+  }
+
+  void retune(const Config& config) override { forecaster_->retune(config.navigation().filter, config.forecast); }
 
   void advertise(const Config& config) override {
     slip_publisher_ = publisher<SlipForecast>(config.topics.slip_forecast);

@@ -62,6 +62,8 @@ class InitializerNodelet : public CoreNodelet {
     start_publisher_ = publisher<StartState>(kInitialStateTopic, true);
   }
 
+  void retune(const Config& config) override { initializer_->retune(config.navigation().filter); }
+
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
     merger_->push(toImuSample(*message, *mount_));
     trusted_.push(merger_->newestImuStamp(), now());

@@ -43,18 +43,33 @@ class StopSupervisorNodelet : public CoreNodelet {
     listen<Slip>(config.topics.slip, &StopSupervisorNodelet::onSlip);
     listen<ErrorForecast>(config.topics.error_forecast, &StopSupervisorNodelet::onForecast);
     listen<std_msgs::Header>(kForecastProgressTopic, &StopSupervisorNodelet::onForecastProgress);
-    if (config.stop.stopMode() != StopMode::kOff) {
-      listen<geometry_msgs::Twist>(config.topics.cmd_vel_in, &StopSupervisorNodelet::onCommand);
+    stepBetweenIfWanted(config);
+    offerTuning("StopSupervisor");
+  }
+
+  /// Once there, it stays there: commands must not run dry when the mode becomes off.
+  void stepBetweenIfWanted(const Config& config) {
+    if (config.stop.stopMode() == StopMode::kOff || stands_between_) {
+      return;
     }
+    stands_between_ = true;
+    command_publisher_ = publisher<geometry_msgs::Twist>(config.topics.cmd_vel);
+    listen<geometry_msgs::Twist>(config.topics.cmd_vel_in, &StopSupervisorNodelet::onCommand);
+    serve("stop_now", &StopSupervisorNodelet::onStopNow);
+    serve("override", &StopSupervisorNodelet::onOverride);
+    serve("emergency_stop", &StopSupervisorNodelet::onEmergencyStop);
+  }
+
+  void retune(const Config& config) override {
+    stepBetweenIfWanted(config);
+    observer_->setWheelSpeedAtRest(config.stationary.wheel_speed_mps);
+    estimates_watch_->setLimit(config.stop.estimate_timeout_s);
+    commands_watch_->setLimit(config.stop.command_timeout_s);
+    supervisor_->retune(config.stop);
+    report();
   }
 
   void advertise(const Config& config) override {
-    if (config.stop.stopMode() != StopMode::kOff) {
-      command_publisher_ = publisher<geometry_msgs::Twist>(config.topics.cmd_vel);
-      serve("stop_now", &StopSupervisorNodelet::onStopNow);
-      serve("override", &StopSupervisorNodelet::onOverride);
-      serve("emergency_stop", &StopSupervisorNodelet::onEmergencyStop);
-    }
     countdown_publisher_ = publisher<std_msgs::Float64>(config.topics.stop_cmd);
     status_publisher_ = publisher<StopStatus>(config.topics.stop);
   }
@@ -224,6 +239,7 @@ class StopSupervisorNodelet : public CoreNodelet {
   ForecastGate gate_;
   std::optional<SilenceWatch> estimates_watch_;
   std::optional<SilenceWatch> commands_watch_;
+  bool stands_between_ = false;  ///< operator and rover
   bool estimates_lost_ = false;
   std::uint64_t refused_commands_ = 0;
   StopState reported_ = StopState::kDriving;

@@ -1,7 +1,9 @@
 #include "slipnav/ros/core_nodelet.h"
 
 #include "slipnav/ros/extrinsics.h"
+#include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/parameters.h"
+#include "slipnav/ros/tuning_messages.h"
 
 namespace slipnav {
 namespace {
@@ -16,8 +18,8 @@ constexpr std::size_t kMaxWaiting = 200000;
 void CoreNodelet::onInit() {
   const std::lock_guard<std::mutex> lock(mutex_);
   try {
-    const std::string tree = getPrivateNodeHandle().param<std::string>("config", "slipnav");
-    config_ = configFromParameters(getNodeHandle(), tree);
+    tree_ = getNodeHandle().resolveName(getPrivateNodeHandle().param<std::string>("config", "slipnav"));
+    config_ = configFromParameters(getNodeHandle(), tree_);
     if (config_.frames.extrinsicsFromTf()) {
       tf_buffer_ = std::make_unique<tf2_ros::Buffer>();
       tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
@@ -26,11 +28,17 @@ void CoreNodelet::onInit() {
       begun_ = true;
     }
     subscribe(config_);
+    listen(kTuningTopic, &CoreNodelet::onTuning);
     // The updater has one name for its topic; only its own node handle can call it something else.
     const ros::NodeHandle node(getNodeHandle(), "", {{"/diagnostics", config_.topics.diagnostics}});
     updater_ = std::make_unique<diagnostic_updater::Updater>(node, getPrivateNodeHandle(), getName());
     updater_->setHardwareID("none");
-    updater_->add(getName(), [this](diagnostic_updater::DiagnosticStatusWrapper& status) { diagnose(status); });
+    updater_->add(getName(), [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      diagnose(status);
+      if (tuning_) {
+        status.add("changed while running", tuning_->changes());
+      }
+    });
     tick_timer_ = getNodeHandle().createWallTimer(ros::WallDuration(kTickInterval_s),
                                                   [this](const ros::WallTimerEvent&) { tick(); });
     diagnostics_timer_ = getNodeHandle().createWallTimer(
@@ -40,6 +48,7 @@ void CoreNodelet::onInit() {
   } catch (const std::exception& error) {
     subscribers_.clear();
     services_.clear();
+    tuning_.reset();
     NODELET_ERROR("%s stays idle: %s", getName().c_str(), error.what());
   }
 }
@@ -64,6 +73,38 @@ std::string CoreNodelet::answer(const std::function<void()>& work) {
     return error.what();
   }
   return "";
+}
+
+void CoreNodelet::offerTuning(const std::string& nodelet) {
+  const TuningServer::Service service = [this](auto& request, auto& response) {
+    return setParameters(request, response);
+  };
+  tuning_ = std::make_unique<TuningServer>(getNodeHandle(), getPrivateNodeHandle(), nodelet, config_, service);
+}
+
+std::vector<ParameterDifference> CoreNodelet::tune(const Config& next) {
+  retune(next);
+  config_ = next;
+  return tuning_ ? tuning_->take(config_) : std::vector<ParameterDifference>();
+}
+
+bool CoreNodelet::setParameters(dynamic_reconfigure::Reconfigure::Request& request,
+                                dynamic_reconfigure::Reconfigure::Response& response) {
+  std::vector<ParameterDifference> changed;
+  const std::string refusal = answer([&] { changed = tune(tuning_->requested(request.config, config_)); });
+  if (!refusal.empty()) {
+    NODELET_WARN("%s: parameters stay as they are: %s", getName().c_str(), refusal.c_str());
+  } else if (!changed.empty()) {
+    NODELET_INFO("%s: changed while running: %s", getName().c_str(), toText(changed).c_str());
+  }
+  response.config = tuning_->announce();
+  store(changed, tree_);
+  return true;
+}
+
+/// What another nodelet was told. A nodelet hears itself as well, and finds nothing new.
+void CoreNodelet::onTuning(const dynamic_reconfigure::Config::ConstPtr& message) {
+  tune(withChanges(config_, changesOf(*message)));
 }
 
 void CoreNodelet::handle(const std::function<void()>& work) {

@@ -68,6 +68,7 @@ Config configFromParameters(const ros::NodeHandle& node, const std::string& name
   XmlRpc::XmlRpcValue tree;
   if (node.getParam(name, tree)) {
     readParameters(toYamlNode(tree), config, "parameters " + node.resolveName(name));
+    config.requireConsistent();
   }
   return config;
 }

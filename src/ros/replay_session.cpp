@@ -105,6 +105,8 @@ void ReplaySession::waitForNodelets() {
 }
 
 void ReplaySession::play(const ReplayOptions& options) {
+  recorder_ = EstimateRecorder();  // else the track before would pass for this one until its first estimate comes
+  odometry_ = OdometryLog();
   std::vector<std::string> command = {"rosbag",
                                       "play",
                                       "--quiet",

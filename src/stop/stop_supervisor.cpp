@@ -26,6 +26,19 @@ StopSupervisor::StopSupervisor(const StopParams& params)
   status_.reason = whyNoPlan();
 }
 
+void StopSupervisor::retune(const StopParams& params) {
+  params_ = params;
+  ramp_.retune(params.deceleration_mps2, params.angular_deceleration_radps2);
+  if (params.stopMode() == mode_) {
+    return;
+  }
+  mode_ = params.stopMode();
+  if (isStopping()) {
+    release("");
+  }
+  advance();
+}
+
 void StopSupervisor::restart(Nanoseconds stamp) {
   const SupervisorStatus before = status_;
   status_ = SupervisorStatus{};

@@ -5,6 +5,7 @@
 #include "slipnav/config/command_line.h"
 #include "slipnav/config/config_options.h"
 #include "slipnav/config/markdown_writer.h"
+#include "slipnav/config/tuning.h"
 #include "slipnav/config/yaml_writer.h"
 
 namespace {
@@ -19,7 +20,8 @@ int run(int argc, char** argv) {
     return 0;
   }
   const slipnav::Config config = slipnav::configFromOptions(arguments);
-  std::cout << (arguments.text("format") == "yaml" ? slipnav::toYaml(config) : slipnav::toMarkdown(config));
+  std::cout << (arguments.text("format") == "yaml" ? slipnav::toYaml(config)
+                                                   : slipnav::toMarkdown(config, slipnav::tunableKeys()));
   return 0;
 }
 

@@ -83,15 +83,22 @@ def topics():
                 raise AssertionError(f"{name} has two types")
             entry[2 if call == "listen" else 1].add(nodelet)
     found[DIAGNOSTICS[0]] = (DIAGNOSTICS[1], {"all"}, set())
+    found[names["kTuningTopic"]] = ("dynamic_reconfigure/Config", tuners(), {"all"})
     return found
+
+
+def tuners():
+    """Nodelets that offer parameters to dynamic_reconfigure."""
+    return {nodelet for nodelet, text in nodelet_sources() if "offerTuning(" in text}
 
 
 def services():
     """NODE/SERVICE, nodes named as in nodelets.launch."""
     nodes = dict(re.findall(r'name="(\w+)" args="load slipnav/(\w+)', read("launch/nodelets.launch")))
     node_of = {nodelet: node for node, nodelet in nodes.items()}
-    return {f"{node_of[nodelet]}/{name}" for nodelet, text in nodelet_sources()
-            for name in re.findall(r'serve\("(\w+)"', text)}
+    served = {f"{node_of[nodelet]}/{name}" for nodelet, text in nodelet_sources()
+              for name in re.findall(r'serve\("(\w+)"', text)}
+    return served | {f"{node_of[nodelet]}/set_parameters" for nodelet in tuners()}
 
 
 def commands():

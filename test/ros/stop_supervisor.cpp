@@ -1,6 +1,7 @@
 /// The stop supervisor between the operator's commands and the rover, as nodes see it.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
@@ -15,6 +16,8 @@
 #include <limits>
 #include <string>
 #include <vector>
+
+#include "slipnav/ros/tuning_messages.h"
 
 namespace slipnav {
 namespace {
@@ -91,6 +94,12 @@ class SupervisorTest : public ::testing::Test {
     std_srvs::SetBool call;
     call.request.data = on ? 1 : 0;
     return ros::service::call(node_.resolveName("supervisor/" + service), call) ? call.response.message : "";
+  }
+
+  void tune(const std::string& mode) {
+    dynamic_reconfigure::Reconfigure call;
+    call.request.config = toValues({{"stop.mode", mode, {}, {}, ""}});
+    ASSERT_TRUE(ros::service::call(node_.resolveName("supervisor/set_parameters"), call));
   }
 
   ros::NodeHandle node_;
@@ -185,6 +194,31 @@ TEST_F(SupervisorTest, OneThatIsOffKeepsItsHandsOffTheCommands) {
   EXPECT_EQ(status_.mode, StopStatus::MODE_OFF);
   EXPECT_EQ(commands_.getNumSubscribers(), 0U);
   EXPECT_EQ(subscribers_.front().getNumPublishers(), 0U);
+}
+
+TEST_F(SupervisorTest, OneThatWasOffTakesItsPlaceWhenTheModeChangesAndKeepsIt) {
+  start("/woken", "off");
+  observe(1.0);
+  tune("advise");
+  ASSERT_TRUE(waitUntil([this] { return commands_.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(waitUntil([this] { return subscribers_.front().getNumPublishers() > 0; }));
+  EXPECT_EQ(command(0.5), 0.5);
+  tune("active");
+  stopTheRover();
+  observe(0.5);
+  EXPECT_LT(command(0.5), 0.5);
+  tune("off");
+  ASSERT_TRUE(waitUntil([this] { return status_.mode == StopStatus::MODE_OFF; }));
+  EXPECT_EQ(status_.state, StopStatus::DRIVING);
+  EXPECT_EQ(command(0.5), 0.5) << "commands do not run dry";
+}
+
+TEST_F(SupervisorTest, WhatAnotherNodeletWasToldHoldsHereAsWell) {
+  start("/told", "advise");
+  const ros::Publisher others = node_.advertise<dynamic_reconfigure::Config>("tuning", 1);
+  ASSERT_TRUE(waitUntil([&others] { return others.getNumSubscribers() > 0; }));
+  others.publish(toValues({{"stop.mode", std::string("active"), {}, {}, ""}}));
+  EXPECT_TRUE(waitUntil([this] { return status_.mode == StopStatus::MODE_ACTIVE; }));
 }
 
 }  // namespace

@@ -164,5 +164,16 @@ TEST_F(GatedUpdateTest, NotANumberIsRejected) {
   EXPECT_EQ(update_.status(kForwardSpeed).rejected, 10U);
 }
 
+TEST_F(GatedUpdateTest, OtherGatesHoldFromThenOnAndTheCountsStay) {
+  ASSERT_TRUE(apply(kForwardSpeed, velocityOff(2.0), 0.0));
+  FilterParams narrow = params();
+  narrow.gate_alpha = 0.2;  // 1.28 σ
+  update_.retune(narrow);
+  EXPECT_FALSE(apply(kForwardSpeed, velocityOff(2.0), 0.1));
+  EXPECT_TRUE(apply(kForwardSpeed, velocityOff(1.0), 0.2));
+  EXPECT_EQ(update_.status(kForwardSpeed).accepted, 2U);
+  EXPECT_EQ(update_.status(kForwardSpeed).rejected, 1U);
+}
+
 }  // namespace
 }  // namespace slipnav::test

@@ -146,5 +146,46 @@ TEST_F(ForecasterTest, ClockThatGoesBackBeginsAnew) {
   EXPECT_FALSE(drive(forecaster, 14, 0.02));
 }
 
+TEST_F(ForecasterTest, AnotherThresholdHoldsFromTheNextForecastOn) {
+  ForecastParams params;
+  params.threshold_m = 1.0;
+  const FilterSetup setup = Config().navigation().filter;
+  Forecaster forecaster = make();
+  ASSERT_TRUE(drive(forecaster, 150, 0.02));
+  forecaster.retune(setup, params);
+  std::optional<Forecast> next;
+  for (int i = 151; !next; ++i) {
+    next = forecaster.push(estimate(i, slipAt(i, 0.02)), P_);
+  }
+  EXPECT_EQ(next->error.threshold_m, 1.0);
+  EXPECT_TRUE(std::isfinite(next->error.time_to_stop_s));
+}
+
+TEST_F(ForecasterTest, RetunedToTheSameItChangesNoBit) {
+  Forecaster kept = make();
+  Forecaster retuned = make();
+  ASSERT_TRUE(drive(kept, 100, 0.02));
+  ASSERT_TRUE(drive(retuned, 100, 0.02));
+  retuned.retune(Config().navigation().filter, {});
+  for (int i = 101; i < 130; ++i) {
+    const std::optional<Forecast> a = kept.push(estimate(i, slipAt(i, 0.02)), P_);
+    const std::optional<Forecast> b = retuned.push(estimate(i, slipAt(i, 0.02)), P_);
+    ASSERT_EQ(a.has_value(), b.has_value());
+    if (a) {
+      ASSERT_EQ(a->error.horizontal_bound_m, b->error.horizontal_bound_m);
+    }
+  }
+}
+
+TEST_F(ForecasterTest, NoiseThatTheFilterTakesOtherwiseCountsInTheBound) {
+  FilterSetup setup = Config().navigation().filter;
+  setup.nonholonomic.lateral_std_mps = 1.0;
+  Forecaster kept = make();
+  Forecaster retuned = make();
+  retuned.retune(setup, {});
+  const double kept_m = drive(kept, 150, 0.02).value().error.horizontal_bound_m.back();
+  EXPECT_GT(drive(retuned, 150, 0.02).value().error.horizontal_bound_m.back(), 1.01 * kept_m);
+}
+
 }  // namespace
 }  // namespace slipnav

@@ -118,5 +118,16 @@ TEST(Tremor, OneOutlierIsBounded) {
   EXPECT_GT(tremor.variance(), before);
 }
 
+TEST(Tremor, KeepsWhatItHasLearnedWithinOtherLimits) {
+  Tremor tremor(params());
+  tremor.setVariance(1e-6);
+  tremor.retune(params());
+  EXPECT_DOUBLE_EQ(tremor.variance(), 1e-6);
+  ZeroMotionParams higher = params();
+  higher.least_velocity_std_mps = 0.01;
+  tremor.retune(higher);
+  EXPECT_DOUBLE_EQ(tremor.variance(), 1e-4);
+}
+
 }  // namespace
 }  // namespace slipnav::test

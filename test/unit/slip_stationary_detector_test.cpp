@@ -147,5 +147,16 @@ TEST_F(StationaryDetectorTest, AStuckEncoderDoesNotFakeAStop) {
   EXPECT_EQ(stationary_count_, 0);
 }
 
+TEST_F(StationaryDetectorTest, OtherLimitsHoldAtOnceForTheSamplesSoFar) {
+  rest(2.0);
+  ASSERT_TRUE(verdict_);
+  StationaryParams strict = params();
+  strict.shoe_threshold = 1.0;
+  detector_.retune(strict);
+  EXPECT_FALSE(detector_.isStationary(kGravity));
+  detector_.retune(params());
+  EXPECT_TRUE(detector_.isStationary(kGravity));
+}
+
 }  // namespace
 }  // namespace slipnav::test

@@ -61,6 +61,9 @@ struct Config {
   NavigationSetup navigation() const;
   WheelGeometry wheelGeometry() const { return {wheels, wheel.scrub_factor}; }
 
+  /// Throws std::invalid_argument of one line when values that are each in their range contradict each other.
+  void requireConsistent() const;
+
   /// Reads YAML files over the defaults: blocks are merged, of a value or list given twice the later one wins; then the
   /// overrides in their order. Throws std::invalid_argument of one line that names the file or override, the key and
   /// what is wrong.

@@ -1,7 +1,9 @@
 #pragma once
 /// Writes any parameter struct as Markdown tables, one per block: the configuration reference.
 
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "slipnav/config/parameter_path.h"
@@ -12,7 +14,8 @@ namespace slipnav {
 /// The visitor behind toMarkdown().
 class MarkdownWriter : public ParameterVisitor {
  public:
-  MarkdownWriter();
+  /// @param tunable keys that are marked: they may be changed while the nodelets run
+  explicit MarkdownWriter(std::set<std::string> tunable = {});
 
   void number(const char* name, double& value, Range range, const char* meaning) override;
   void integer(const char* name, int& value, Range range, const char* meaning) override;
@@ -46,16 +49,17 @@ class MarkdownWriter : public ParameterVisitor {
   void closeSection();
   void row(const std::string& name, const std::string& value, const std::string& allowed, const std::string& meaning);
 
+  std::set<std::string> tunable_;
   ParameterPath path_;
   std::vector<Section> sections_;
   std::vector<std::size_t> open_;  ///< indices of the sections that the visitor stands in
   bool rows_wanted_ = true;        ///< off after the first item of a list: the others have the same keys
 };
 
-/// All fields of a struct with visit(): key, default, allowed values, meaning.
+/// All fields of a struct with visit(): key, default, allowed values, meaning; those in `tunable` with a mark.
 template <class Parameters>
-std::string toMarkdown(Parameters parameters) {
-  MarkdownWriter writer;
+std::string toMarkdown(Parameters parameters, std::set<std::string> tunable = {}) {
+  MarkdownWriter writer(std::move(tunable));
   parameters.visit(writer);
   return writer.markdown();
 }

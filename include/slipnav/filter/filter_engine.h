@@ -37,6 +37,10 @@ class FilterEngine {
   void reset();
   bool isInitialised() const { return initialised_; }
 
+  /// Takes over gates, noise of measurements and limits of standstill for all steps that are yet to be processed. The
+  /// rest of the setup has to be that of the constructor.
+  void retune(const FilterSetup& setup);
+
   /// Takes a step; one of an old epoch, or out of sequence, is ignored.
   void push(const InsStep& step);
   /// Takes a wheel sample; false when it is not finite, repeated, or lies before what has been processed.

@@ -33,6 +33,9 @@ class GatedUpdate {
  public:
   explicit GatedUpdate(const FilterParams& params);
 
+  /// Other gates from now on; what has been counted stays.
+  void retune(const FilterParams& params);
+
   /// @return the estimated error when at least one measurement passed; P is updated then, and untouched otherwise
   std::optional<ErrorVector> apply(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P);
 

@@ -48,6 +48,9 @@ class CovarianceForecast {
   /// Throws std::invalid_argument unless both are above zero.
   CovarianceForecast(const Planet& planet, const FilterSetup& setup, double step_s, double wheel_interval_s);
 
+  /// The filter takes its measurements for better or worse from now on.
+  void retune(const FilterSetup& setup) { setup_ = setup; }
+
   /// The filter's slip model as an outlook, for as long as nothing is learned.
   GroundOutlook assumption() const;
 

@@ -39,6 +39,10 @@ class Forecaster {
   /// each interval while the rover drives, once the window holds enough.
   std::optional<Forecast> push(const Estimate& estimate, const ErrorCovariance& P);
 
+  /// Takes over threshold, window, horizon and noise of the filter's measurements from the next estimate on. Slip
+  /// model, step and bound have to be those of the constructor.
+  void retune(const FilterSetup& setup, const ForecastParams& params);
+
   /// Forgets everything.
   void reset();
 

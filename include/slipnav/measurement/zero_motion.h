@@ -23,6 +23,9 @@ class Tremor {
  public:
   explicit Tremor(const ZeroMotionParams& params);
 
+  /// Other limits and another memory from now on; what was learned stays, within the limits.
+  void retune(const ZeroMotionParams& params);
+
   /// Of the velocity on each axis [m²/s²].
   double variance() const { return variance_; }
   void setVariance(double variance) { variance_ = variance; }

@@ -59,6 +59,9 @@ class Initializer {
   /// The initial state once it can be known; ask after every sample.
   std::optional<InitialState> result() const;
 
+  /// Takes over gates, noise of measurements and limits of standstill; the rest of the setup has to be the same.
+  void retune(const FilterSetup& setup);
+
   /// What it is waiting for, for people.
   std::string progress() const;
 

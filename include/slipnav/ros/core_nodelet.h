@@ -19,6 +19,7 @@
 
 #include "slipnav/config/config.h"
 #include "slipnav/ros/shared_publisher.h"
+#include "slipnav/ros/tuning_server.h"
 
 namespace slipnav {
 
@@ -42,6 +43,9 @@ class CoreNodelet : public nodelet::Nodelet {
   virtual void advertise(const Config& config) = 0;
   /// Once a second; may come before begin().
   virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
+  /// Some of the parameters that may be changed while running have changed; called between two messages. Does not
+  /// throw.
+  virtual void retune(const Config& /*config*/) {}
   /// Called regularly by the wall clock.
   virtual void onTick() {}
 
@@ -75,6 +79,9 @@ class CoreNodelet : public nodelet::Nodelet {
     services_.push_back(getPrivateNodeHandle().advertiseService(name, callback));
   }
 
+  /// Offers what the table of tunable parameters has for `nodelet` to dynamic_reconfigure. Called in subscribe().
+  void offerTuning(const std::string& nodelet);
+
   /// Seconds of a clock that only runs forward, for patience.
   static double now() { return ros::SteadyTime::now().toSec(); }
 
@@ -83,16 +90,22 @@ class CoreNodelet : public nodelet::Nodelet {
   void guarded(const std::function<void()>& work);
   /// @return what went wrong, "" when nothing did
   std::string answer(const std::function<void()>& work);
+  std::vector<ParameterDifference> tune(const Config& next);
+  bool setParameters(dynamic_reconfigure::Reconfigure::Request& request,
+                     dynamic_reconfigure::Reconfigure::Response& response);
+  void onTuning(const dynamic_reconfigure::Config::ConstPtr& message);
   void tick();
   void waitForExtrinsics();
 
   std::mutex mutex_;  ///< callbacks may come while onInit() is not done
+  std::string tree_;  ///< of parameters
   Config config_;
   bool begun_ = false;
   std::deque<std::function<void()>> waiting_;  ///< messages before begin()
   std::unique_ptr<tf2_ros::Buffer> tf_buffer_;
   std::unique_ptr<tf2_ros::TransformListener> tf_listener_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
+  std::unique_ptr<TuningServer> tuning_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer tick_timer_;

@@ -12,6 +12,8 @@ inline constexpr const char* kForecastInputTopic = "forecast_input";
 /// Forecast to StopSupervisor: std_msgs/Header, stamp of the newest estimate dealt with. A forecast that was made with
 /// it was published before.
 inline constexpr const char* kForecastProgressTopic = "forecast_progress";
+/// From a nodelet whose parameters were changed to all others: dynamic_reconfigure/Config, what it was changed to.
+inline constexpr const char* kTuningTopic = "tuning";
 /// Overlay to robot_state_publisher: the wheels of the model in rviz.
 inline constexpr const char* kModelJointsTopic = "model/joint_states";
 

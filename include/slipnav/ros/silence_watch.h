@@ -11,6 +11,8 @@ class SilenceWatch {
  public:
   explicit SilenceWatch(double limit_s) : limit_s_(limit_s) {}
 
+  void setLimit(double limit_s) { limit_s_ = limit_s; }
+
   /// One instant by both clocks.
   struct Now {
     double ros_s;

@@ -24,6 +24,8 @@ class RoverObserver {
   /// @param wheel_speed_at_rest_mps highest circumferential speed of a wheel at rest, see StationaryParams
   explicit RoverObserver(double wheel_speed_at_rest_mps) : wheel_speed_at_rest_mps_(wheel_speed_at_rest_mps) {}
 
+  void setWheelSpeedAtRest(double speed_mps) { wheel_speed_at_rest_mps_ = speed_mps; }
+
   /// The slip of an estimate comes before its nav_state.
   void add(const Slip& message);
   RoverObservation observe(const NavState& message);

@@ -31,6 +31,9 @@ class StationaryDetector {
   /// Forgets everything.
   void reset();
 
+  /// Other limits from now on; the samples so far stay.
+  void retune(const StationaryParams& params) { params_ = params; }
+
   /// Bias-free mean specific force and rate of one IMU step that ends at `stamp`.
   void addImu(Nanoseconds stamp, const Vector3& f_ib_b, const Vector3& omega_ib_b);
 

@@ -13,6 +13,12 @@ class StopRamp {
   StopRamp(double deceleration_mps2, double angular_deceleration_radps2)
       : deceleration_mps2_(deceleration_mps2), angular_deceleration_radps2_(angular_deceleration_radps2) {}
 
+  /// Other limits from now on, in a stop that is under way as well.
+  void retune(double deceleration_mps2, double angular_deceleration_radps2) {
+    deceleration_mps2_ = deceleration_mps2;
+    angular_deceleration_radps2_ = angular_deceleration_radps2;
+  }
+
   /// A stop begins. @param linear_speed_mps what was last commanded, magnitude
   void begin(Nanoseconds stamp, double linear_speed_mps);
 

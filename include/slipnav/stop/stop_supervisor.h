@@ -46,6 +46,9 @@ class StopSupervisor {
  public:
   explicit StopSupervisor(const StopParams& params);
 
+  /// Other limits and times from now on. A stop that is under way when the mode changes ends.
+  void retune(const StopParams& params);
+
   /// Each estimate, in order. One whose stamp goes back by a second or more begins anew; other old ones are ignored.
   void observe(const RoverObservation& observation);
   /// No estimate comes any more: nothing can be decided until one does.
