@@ -81,16 +81,19 @@ class FixedStateSpaceFilter : public StateSpaceFilter {
     Vector unit_gain = Vector::Zero();  ///< P∞ h in its rows
   };
 
+  bool hasPairs() const;
+  Matrix fromLeft(const Matrix& drift_like, const Matrix& m) const;
+  Belief predicted(const Matrix& phi, const Belief& belief) const;
   Matrix transition(double interval_s) const;
   Vector outputAfter(double interval_s) const;
-  void predictSensitivities(const Matrix& phi, double interval_s);
-  void predictBelief(const Matrix& phi);
+  void predictSensitivities(const Matrix& phi, double interval_s, const Belief& predicted_belief);
   Innovation innovate(double time, double value) const;
   void updateSensitivities(const Innovation& innovation, double time, Eigen::VectorXd& gradient);
   void updateBelief(const Innovation& innovation);
 
   std::vector<Block> blocks_;  ///< one per component
   Vector output_ = Vector::Zero();
+  bool has_pairs_;
   Belief belief_;
   std::vector<Belief> sensitivities_;  ///< one per hyperparameter except the noise
 };
@@ -107,6 +110,36 @@ FixedStateSpaceFilter<D>::FixedStateSpaceFilter(std::vector<MarkovComponent> com
     blocks_.push_back(block);
     output_.segment(i, n) = component.shape.output();
   }
+  has_pairs_ = hasPairs();
+}
+
+// Whether drift, and with it the transition, has nothing but blocks of 2×2 on its diagonal: conjugate pairs of poles,
+// and single states. Products with them then take a quarter of the work, with the same result to the last bit.
+template <int D>
+bool FixedStateSpaceFilter<D>::hasPairs() const {
+  Matrix outside = Matrix::Zero();
+  for (const Block& block : blocks_) {
+    outside += block.drift;
+  }
+  for (Eigen::Index i = 0; i < D; i += 2) {
+    outside.template block<2, 2>(i, i).setZero();
+  }
+  return outside.isZero(0.0);
+}
+
+// B·M for a B with the zeros of the drift.
+template <int D>
+typename FixedStateSpaceFilter<D>::Matrix FixedStateSpaceFilter<D>::fromLeft(const Matrix& drift_like,
+                                                                             const Matrix& m) const {
+  Matrix product;
+  if (!has_pairs_) {
+    product.noalias() = drift_like * m;
+    return product;
+  }
+  for (Eigen::Index i = 0; i < D; i += 2) {
+    product.template middleRows<2>(i) = drift_like.template block<2, 2>(i, i).lazyProduct(m.template middleRows<2>(i));
+  }
+  return product;
 }
 
 template <int D>
@@ -120,17 +153,29 @@ typename FixedStateSpaceFilter<D>::Matrix FixedStateSpaceFilter<D>::transition(d
   return phi;
 }
 
-// Must come before predictBelief(): it works on the belief and the sensitivities of the last sample.
 template <int D>
-void FixedStateSpaceFilter<D>::predictSensitivities(const Matrix& phi, double interval_s) {
-  for (Belief& sensitivity : sensitivities_) {
-    sensitivity.mean = phi * sensitivity.mean;
-    const Matrix half = phi * sensitivity.reduction;
-    sensitivity.reduction.noalias() = half * phi.transpose();
+typename FixedStateSpaceFilter<D>::Belief FixedStateSpaceFilter<D>::predicted(const Matrix& phi,
+                                                                              const Belief& belief) const {
+  Belief next;
+  next.mean = phi * belief.mean;
+  const Matrix half = fromLeft(phi, belief.reduction);
+  if (!has_pairs_) {
+    next.reduction.noalias() = half * phi.transpose();
+    return next;
   }
-  const Vector mean = phi * belief_.mean;
-  const Matrix half = phi * belief_.reduction;
-  const Matrix reduction = half * phi.transpose();
+  for (Eigen::Index i = 0; i < D; i += 2) {
+    next.reduction.template middleCols<2>(i) =
+        half.template middleCols<2>(i).lazyProduct(phi.template block<2, 2>(i, i).transpose());
+  }
+  return next;
+}
+
+template <int D>
+void FixedStateSpaceFilter<D>::predictSensitivities(const Matrix& phi, double interval_s,
+                                                    const Belief& predicted_belief) {
+  for (Belief& sensitivity : sensitivities_) {
+    sensitivity = predicted(phi, sensitivity);
+  }
   for (std::size_t c = 0; c < components_.size(); ++c) {
     if (!components_[c].has_length_scale) {
       continue;
@@ -138,17 +183,10 @@ void FixedStateSpaceFilter<D>::predictSensitivities(const Matrix& phi, double in
     // ∂Φ/∂log ℓ = −τ F Φ
     Belief& sensitivity = sensitivities_[static_cast<std::size_t>(components_[c].first_parameter + 1)];
     const Matrix rate = -components_[c].tau(interval_s) * blocks_[c].drift;
-    const Matrix change = rate * reduction;
-    sensitivity.mean += rate * mean;
+    const Matrix change = fromLeft(rate, predicted_belief.reduction);
+    sensitivity.mean += rate * predicted_belief.mean;
     sensitivity.reduction += change + change.transpose();
   }
-}
-
-template <int D>
-void FixedStateSpaceFilter<D>::predictBelief(const Matrix& phi) {
-  belief_.mean = phi * belief_.mean;
-  const Matrix half = phi * belief_.reduction;
-  belief_.reduction.noalias() = half * phi.transpose();
 }
 
 template <int D>
@@ -212,10 +250,11 @@ double FixedStateSpaceFilter<D>::run(const Eigen::VectorXd& times, const Eigen::
   for (Eigen::Index k = 0; k < times.size(); ++k) {
     const double interval_s = k == 0 ? 0.0 : times(k) - times(k - 1);
     const Matrix phi = transition(interval_s);
+    const Belief next = predicted(phi, belief_);
     if (gradient != nullptr) {
-      predictSensitivities(phi, interval_s);
+      predictSensitivities(phi, interval_s, next);
     }
-    predictBelief(phi);
+    belief_ = next;
     const Innovation innovation = innovate(times(k), values(k));
     if (gradient != nullptr) {
       updateSensitivities(innovation, times(k), *gradient);
