@@ -13,7 +13,7 @@ constexpr double kLeastShare = 1e-6;
 double square(double x) { return x * x; }
 
 double horizontalStd(const ErrorCovariance& P) {
-  return std::sqrt(std::max(0.0, P(kPosition, kPosition) + P(kPosition + 1, kPosition + 1)));
+  return std::sqrt(std::max(P(kPosition, kPosition) + P(kPosition + 1, kPosition + 1), 0.0));  // NaN stays NaN
 }
 
 /// P ← (I − K H) P (I − K H)ᵀ + K R Kᵀ for a gain that is not P's own.

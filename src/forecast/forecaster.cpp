@@ -21,6 +21,18 @@ std::size_t toAndFro(std::size_t i, std::size_t count) {
   return phase < count ? phase : period - phase;
 }
 
+bool isFinite(const Estimate& estimate, const ErrorCovariance& P) {
+  return isFinite(estimate.nav) && estimate.motion.v_eb_b.allFinite() &&
+         std::isfinite(estimate.wheels.motion.forward_mps) && std::isfinite(estimate.slip_factor) &&
+         std::isfinite(estimate.side_slip_factor) && P.allFinite();
+}
+
+bool isFinite(const Forecast& forecast) {
+  const std::vector<double>& bound_m = forecast.error.horizontal_bound_m;
+  return forecast.slip.mean.allFinite() && forecast.slip.stddev.allFinite() &&
+         std::all_of(bound_m.begin(), bound_m.end(), [](double m) { return std::isfinite(m); });
+}
+
 }  // namespace
 
 Forecaster::Forecaster(const Planet& planet, const FilterSetup& setup, const ForecastParams& params)
@@ -53,6 +65,10 @@ std::optional<Forecast> Forecaster::push(const Estimate& estimate, const ErrorCo
   }
   newest_ = estimate.nav.stamp;
   if (!estimate.has_wheels) {
+    return std::nullopt;
+  }
+  if (!isFinite(estimate, P)) {
+    problem_ = "the estimate is not finite";
     return std::nullopt;
   }
   follow(estimate, P);
@@ -146,6 +162,10 @@ std::optional<Forecast> Forecaster::make(const Estimate& estimate) {
   forecast.error.threshold_m = params_.threshold_m;
   boundError(covariance_.ahead(wayAhead(estimate), outlook_), forecast.error);
   forecast.error.stop_distance_m = std::abs(outlook_.speed_mps) * forecast.error.time_to_stop_s;
+  if (!isFinite(forecast)) {
+    problem_ = "the forecast is not finite";
+    return std::nullopt;
+  }
   if (params_.schedule == "paper") {
     drive_.clear();
   }

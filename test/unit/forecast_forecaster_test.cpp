@@ -139,6 +139,34 @@ TEST_F(ForecasterTest, ConstantSlipAndSlipThatIsNotANumberAreForecast) {
   }
 }
 
+TEST_F(ForecasterTest, EstimatesThatAreNotFiniteAreRefusedAndForgotten) {
+  Forecaster forecaster = make();
+  drive(forecaster, 40, 0.02);
+  ErrorCovariance broken = P_;
+  broken(kPosition, kVelocity) = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 41; i <= 60; ++i) {
+    EXPECT_FALSE(forecaster.push(estimate(i, slipAt(i, 0.02)), broken));
+    EXPECT_EQ(forecaster.problem(), "the estimate is not finite");
+  }
+  std::optional<Forecast> forecast;
+  for (int i = 61; i <= 80; ++i) {
+    if (std::optional<Forecast> next = forecaster.push(estimate(i, slipAt(i, 0.02)), P_)) {
+      forecast = std::move(next);
+    }
+  }
+  ASSERT_TRUE(forecast);
+  EXPECT_TRUE(std::isfinite(forecast->error.horizontal_bound_m.back()));
+}
+
+TEST_F(ForecasterTest, ForecastThatOverflowsIsNotMade) {
+  P_ *= 1e306;
+  ForecastParams params;
+  params.bound = "absolute";
+  Forecaster forecaster = make(params);
+  EXPECT_FALSE(drive(forecaster, 60, 0.02));
+  EXPECT_EQ(forecaster.problem(), "the forecast is not finite");
+}
+
 TEST_F(ForecasterTest, ClockThatGoesBackBeginsAnew) {
   Forecaster forecaster = make();
   ASSERT_TRUE(drive(forecaster, 150, 0.02));
