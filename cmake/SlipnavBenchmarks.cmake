@@ -1,6 +1,6 @@
 # Benchmarks of test/bench in one executable, where Google Benchmark is installed; built on demand only.
 
-file(GLOB benchmark_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/test/bench/*_bench.cpp")
+file(GLOB benchmark_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/test/bench/*.cpp")
 find_package(benchmark QUIET)
 if(benchmark_FOUND AND benchmark_sources)
   #catkin_lint: skip

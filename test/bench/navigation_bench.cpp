@@ -2,107 +2,131 @@
 
 #include <benchmark/benchmark.h>
 
+#include <memory>
 #include <vector>
 
-#include "slipnav/navigator/navigator.h"
-#include "support/recorded_drive.h"
+#include "bench_drive.h"
+#include "slipnav/eval/simulated_drive.h"
+#include "slipnav/forecast/forecaster.h"
+#include "slipnav/navigator/pipeline.h"
 
-namespace slipnav {
+namespace slipnav::bench {
 namespace {
 
-constexpr double kDrive_s = 915.0;  // the paper's longest
-
-const Config& config() {
-  static const Config config = test::driveConfig(30.0);
-  return config;
-}
-
-const test::RecordedDrive& drive() {
-  static const test::RecordedDrive drive = test::recordDrive(config());
-  return drive;
-}
-
-/// IMU samples of the drive, mechanised without any correction.
-std::vector<InsStep> steps() {
-  const NavigationSetup setup = config().navigation();
-  InsEngine ins(Planet::byName(config().planet), setup.imu_input);
-  ins.initialise(drive().initial.nav);
-  std::vector<InsStep> result;
-  for (const test::DriveSample& sample : drive().samples) {
-    if (sample.is_imu) {
-      ins.push(sample.imu);
-      while (const std::optional<InsStep> step = ins.step()) {
-        result.push_back(*step);
-      }
-    }
+/// Everything of the drive through a pipeline.
+void navigate(Pipeline& pipeline) {
+  const WheelGeometry geometry = config().wheelGeometry();
+  for (const sim::Measurements& sample : longDrive()) {
+    pushMeasurements(sample, geometry, pipeline);
   }
-  return result;
+}
+
+/// Where the drive starts, as the initialisation finds it.
+InitialState startOfDrive() {
+  Pipeline pipeline(Planet::byName(config().planet), config().navigation(),
+                    [](const Estimate&, const ErrorCovariance&) {});
+  navigate(pipeline);
+  return pipeline.initial().value();
 }
 
 /// Mechanisation, Φ, Q and the propagation of the covariance.
 void imuStep(benchmark::State& state) {
   NavigationSetup setup = config().navigation();
   setup.filter.filter.updates.clear();
-  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  const InitialState start = startOfDrive();
   std::vector<ImuSample> samples;
-  for (const test::DriveSample& sample : drive().samples) {
-    if (sample.is_imu) {
+  for (const sim::Measurements& sample : longDrive()) {
+    if (sample.imu.stamp > start.nav.stamp) {
       samples.push_back(sample.imu);
     }
   }
   while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(samples.size()))) {
     Navigator navigator(Planet::byName(config().planet), setup.imu_input, setup.filter);
-    navigator.initialise(drive().initial);
+    navigator.initialise(start);
     for (const ImuSample& sample : samples) {
-      navigator.push(sample, ignore);
+      navigator.push(sample, [](const Estimate&, const ErrorCovariance&) {});
     }
   }
+  state.counters["limit_us"] = 5.0;
 }
 
-/// Gate and update by forward speed, heading rate, lateral and vertical velocity: what a wheel sample costs beyond the
-/// IMU steps around it, with the mechanisation done again.
+/// The last estimate of the drive that a wheel sample went into, and its covariance.
+struct WheelMoment {
+  Estimate estimate;
+  ErrorCovariance P;
+};
+
+WheelMoment lastWheelMoment() {
+  WheelMoment moment;
+  Pipeline pipeline(Planet::byName(config().planet), config().navigation(),
+                    [&moment](const Estimate& estimate, const ErrorCovariance& P) {
+                      if (estimate.has_wheels) {
+                        moment = {estimate, P};
+                      }
+                    });
+  navigate(pipeline);
+  return moment;
+}
+
+MeasurementSet wheelMeasurements(const FilterSetup& setup, const Estimate& estimate) {
+  const VelocityJacobian H_v = bodyVelocityJacobian(estimate.nav, setup.lever_imu_to_reference_b);
+  const double speed_mps = estimate.wheels.motion.forward_mps;
+  MeasurementSet set;
+  set.add(kForwardSpeed, forwardSpeedMeasurement(setup.wheel, speed_mps, speed_mps, estimate.motion, H_v,
+                                                 estimate.vehicle, 0.0, estimate.slip_factor));
+  set.add(kYawRate, yawRateMeasurement(setup.wheel, 0.0, estimate.motion));
+  set.add(kLateral,
+          lateralMeasurement(setup.nonholonomic, estimate.motion, H_v, estimate.vehicle, estimate.side_slip_factor));
+  set.add(kVertical, verticalMeasurement(setup.nonholonomic, estimate.motion, H_v, estimate.vehicle));
+  return set;
+}
+
+/// Models, gates and update by forward speed, heading rate, lateral and vertical velocity.
 void wheelUpdate(benchmark::State& state) {
-  const NavigationSetup setup = config().navigation();
-  const InsStep step = steps().at(500);
-  ErrorCovariance P = drive().initial.P;
-  GatedUpdate update(setup.filter.filter);
-  const BodyMotion motion{0.1, step.state.q_b_to_n.conjugate() * step.state.v_eb_n, step.omega_ib_b};
-  const VelocityJacobian H_v = bodyVelocityJacobian(step.state, setup.filter.lever_imu_to_reference_b);
-  const VehicleState vehicle;
+  const FilterSetup setup = config().navigation().filter;
+  const WheelMoment moment = lastWheelMoment();
+  GatedUpdate update(setup.filter);
   for (auto _ : state) {
-    MeasurementSet set;
-    set.add(kForwardSpeed, forwardSpeedMeasurement(setup.filter.wheel, 0.8, 0.8, motion, H_v, vehicle, 0.0, 1.0));
-    set.add(kYawRate, yawRateMeasurement(setup.filter.wheel, 0.0, motion));
-    set.add(kLateral, lateralMeasurement(setup.filter.nonholonomic, motion, H_v, vehicle, 1.0));
-    set.add(kVertical, verticalMeasurement(setup.filter.nonholonomic, motion, H_v, vehicle));
-    ErrorCovariance updated = P;
-    benchmark::DoNotOptimize(update.apply(set, step.state.stamp, updated));
-    benchmark::DoNotOptimize(updated);
+    MeasurementSet set = wheelMeasurements(setup, moment.estimate);
+    ErrorCovariance P = moment.P;
+    benchmark::DoNotOptimize(update.apply(set, moment.estimate.nav.stamp, P));
+    benchmark::DoNotOptimize(P);
   }
+  state.counters["limit_us"] = 15.0;
 }
 
-/// Filter and mechanisation over as many samples as 915 s have.
+/// Initialisation, mechanisation and filter over 915 s of all sensors.
 void offlineDrive(benchmark::State& state) {
-  const NavigationSetup setup = config().navigation();
-  const std::vector<test::DriveSample>& samples = drive().samples;
-  const Nanoseconds length = samples.back().stamp() - samples.front().stamp();
-  const int rounds = static_cast<int>(kDrive_s / toSeconds(length)) + 1;
-  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  longDrive();
   for (auto _ : state) {
-    for (int round = 0; round < rounds; ++round) {
-      Navigator navigator(Planet::byName(config().planet), setup.imu_input, setup.filter);
-      navigator.initialise(drive().initial);
-      for (const test::DriveSample& sample : samples) {
-        sample.is_imu ? static_cast<void>(navigator.push(sample.imu, ignore))
-                      : static_cast<void>(navigator.push(sample.wheels, ignore));
-      }
-    }
+    Pipeline pipeline(Planet::byName(config().planet), config().navigation(),
+                      [](const Estimate&, const ErrorCovariance&) {});
+    navigate(pipeline);
   }
+  state.counters["limit_us"] = 0.6e6;
 }
 
-BENCHMARK(imuStep);
+/// The same with a forecast every second.
+void offlineDriveAndForecasts(benchmark::State& state) {
+  longDrive();
+  const Planet planet = Planet::byName(config().planet);
+  const NavigationSetup setup = config().navigation();
+  double forecasts = 0.0;
+  for (auto _ : state) {
+    Forecaster forecaster(planet, setup.filter, config().forecast);
+    forecasts = 0.0;
+    Pipeline pipeline(planet, setup, [&](const Estimate& estimate, const ErrorCovariance& P) {
+      forecasts += forecaster.push(estimate, P) ? 1.0 : 0.0;
+    });
+    navigate(pipeline);
+  }
+  state.counters["forecasts"] = forecasts;
+}
+
+BENCHMARK(imuStep)->Unit(benchmark::kMicrosecond);
 BENCHMARK(wheelUpdate)->Unit(benchmark::kMicrosecond);
 BENCHMARK(offlineDrive)->Unit(benchmark::kMillisecond);
+BENCHMARK(offlineDriveAndForecasts)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace slipnav
+}  // namespace slipnav::bench
