@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kStartTimeout_s = 60.0;
 constexpr double kSilence_s = 5.0;
+constexpr double kStragglers_s = 0.5;
 const ros::WallDuration kPollInterval(0.02);
 
 /// Serves callbacks until `done`; @return false when nothing has come of it within the time, if there is a limit.
@@ -138,6 +139,8 @@ void ReplaySession::waitForEstimate(Nanoseconds last_stamp) {
     size = recorder_.size();
     spinUntil([this, last_stamp] { return recorder_.newestStamp() >= last_stamp; }, kSilence_s);
   } while (recorder_.newestStamp() < last_stamp && recorder_.size() > size);
+  // The slip of the last wheel sample was published before, but comes on a way of its own.
+  spinUntil([] { return false; }, kStragglers_s);
 }
 
 }  // namespace slipnav

@@ -349,8 +349,12 @@ TEST_F(ZeroCopyDrive, EveryTopicPassesTheVeryObjects) {
 }
 
 TEST_F(ZeroCopyDrive, NoTopicIsWithoutAProbe) {
-  // TF and diagnostics are for others, and published by libraries of theirs.
-  std::set<std::string> known = {"/rosout", "/tf", "/tf_static", node_.resolveName(config_.topics.diagnostics)};
+  // TF and diagnostics are for others, and published by libraries of theirs. Tuning is there when somebody tunes.
+  std::set<std::string> known = {"/rosout", "/tf", "/tf_static", node_.resolveName(config_.topics.diagnostics),
+                                 node_.resolveName(kTuningTopic)};
+  for (const std::string tuned : {"/Filter", "/Forecast", "/StopSupervisor"}) {
+    known.insert({tuned + "/parameter_descriptions", tuned + "/parameter_updates"});
+  }
   for (const Probe& probe : probes_) {
     known.insert(node_.resolveName(probe.topic));
   }
