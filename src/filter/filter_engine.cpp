@@ -401,6 +401,7 @@ bool FilterEngine::update(MeasurementSet set) {
   const ErrorReset reset = correct(planet_, *error, state_);
   applyReset(reset, P_);
   subtractError(*error, vehicle_);
+  average_.correct(*error, reset);
   vertical_average_.correct(*error, reset);
   return true;
 }

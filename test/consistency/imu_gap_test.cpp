@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <future>
 #include <vector>
 
 #include "monte_carlo.h"
@@ -21,22 +20,12 @@ constexpr double kShift_s = 0.7;
 constexpr Range kAnees{0.15, 1.5};
 
 std::vector<DriveResult> drives(double gap_s) {
-  const auto part = [gap_s](int first) {
-    std::vector<DriveResult> results;
-    for (int seed = first; seed <= kDrives; seed += 2) {
-      Config config;
-      config.simulator.seed = 3000 + seed;
-      config.simulator.drive.distance_m = kDistance_m;
-      results.push_back(runDrive(config, "periodic:12:3", {kEarliest_s + kShift_s * seed, gap_s}));
-    }
-    return results;
-  };
-  std::future<std::vector<DriveResult>> odd = std::async(std::launch::async, part, 1);
-  std::vector<DriveResult> all = part(2);
-  for (const DriveResult& result : odd.get()) {
-    all.push_back(result);
-  }
-  return all;
+  return runDrives(kDrives, [gap_s](int drive) {
+    Config config;
+    config.simulator.seed = 3000 + drive;
+    config.simulator.drive.distance_m = kDistance_m;
+    return runDrive(config, "periodic:12:3", {kEarliest_s + kShift_s * drive, gap_s});
+  });
 }
 
 class ImuGaps : public ::testing::TestWithParam<double> {};

@@ -4,7 +4,6 @@
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cstdio>
-#include <future>
 #include <vector>
 
 #include "monte_carlo.h"
@@ -22,22 +21,12 @@ constexpr Range kVelocityAnees{0.6, 1.35};
 constexpr Range kNis{0.7, 1.3};
 
 std::vector<DriveResult> drives(const std::string& policy) {
-  const auto part = [&policy](int first) {
-    std::vector<DriveResult> results;
-    for (int seed = first; seed <= kDrives; seed += 2) {
-      Config config;
-      config.simulator.seed = 1000 + seed;
-      config.simulator.drive.distance_m = kDistance_m;
-      results.push_back(runDrive(config, policy));
-    }
-    return results;
-  };
-  std::future<std::vector<DriveResult>> odd = std::async(std::launch::async, part, 1);
-  std::vector<DriveResult> all = part(2);
-  for (const DriveResult& result : odd.get()) {
-    all.push_back(result);
-  }
-  return all;
+  return runDrives(kDrives, [&policy](int drive) {
+    Config config;
+    config.simulator.seed = 1000 + drive;
+    config.simulator.drive.distance_m = kDistance_m;
+    return runDrive(config, policy);
+  });
 }
 
 /// Mean over the drives that last so long, per degree of freedom.

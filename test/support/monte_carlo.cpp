@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <deque>
+#include <future>
 #include <stdexcept>
 
 #include "slipnav/eval/simulated_drive.h"
@@ -109,6 +110,22 @@ DriveResult runDrive(const Config& config, const std::string& policy, const ImuG
     judge.result.components[static_cast<std::size_t>(i)] = pipeline.filter().status(static_cast<Component>(i));
   }
   return judge.result;
+}
+
+std::vector<DriveResult> runDrives(int count, const std::function<DriveResult(int drive)>& run) {
+  const auto everySecond = [count, &run](int first) {
+    std::vector<DriveResult> results;
+    for (int drive = first; drive <= count; drive += 2) {
+      results.push_back(run(drive));
+    }
+    return results;
+  };
+  std::future<std::vector<DriveResult>> odd = std::async(std::launch::async, everySecond, 1);
+  std::vector<DriveResult> all = everySecond(2);
+  for (const DriveResult& result : odd.get()) {
+    all.push_back(result);
+  }
+  return all;
 }
 
 }  // namespace slipnav::test

@@ -2,6 +2,7 @@
 /// Simulated drives through the navigation, with what is needed to judge its covariance.
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -37,5 +38,8 @@ struct ImuGap {
 
 /// One drive of config.simulator under the policy; truth is the simulator's own state.
 DriveResult runDrive(const Config& config, const std::string& policy, const ImuGap& gap = {});
+
+/// Drives 1 to `count`, two at a time.
+std::vector<DriveResult> runDrives(int count, const std::function<DriveResult(int drive)>& run);
 
 }  // namespace slipnav::test

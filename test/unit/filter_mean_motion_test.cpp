@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "random_states.h"
-
 namespace slipnav::test {
 namespace {
 
@@ -49,8 +47,8 @@ class Drive {
   ErrorVector error_ = ErrorVector::Zero();
 };
 
-TEST(MeanMotion, AMeanDependsOnTheErrorAsItWasMeanwhile) {
-  Drive drive;
+/// @return the error after a while of driving with a wrong tilt
+ErrorVector tilted(Drive& drive) {
   ErrorVector error = ErrorVector::Zero();
   error(kAttitude + 1) = 0.05;
   error(kVelocity) = 0.1;
@@ -58,6 +56,12 @@ TEST(MeanMotion, AMeanDependsOnTheErrorAsItWasMeanwhile) {
     drive.step(i, error);
     error = drive.error();
   }
+  return error;
+}
+
+TEST(MeanMotion, AMeanDependsOnTheErrorAsItWasMeanwhile) {
+  Drive drive;
+  const ErrorVector error = tilted(drive);
   // The truth stands still: the mean of the estimated velocity is that of its error.
   const Vector3 expected = drive.mean().jacobian() * error;
   EXPECT_NEAR(drive.mean().mean()->v_eb_b.x(), expected.x(), 1e-6);
@@ -66,13 +70,7 @@ TEST(MeanMotion, AMeanDependsOnTheErrorAsItWasMeanwhile) {
 
 TEST(MeanMotion, ACorrectionReachesBack) {
   Drive drive;
-  ErrorVector error = ErrorVector::Zero();
-  error(kAttitude + 1) = 0.05;
-  error(kVelocity) = 0.1;
-  for (int i = 0; i < kSteps; ++i) {
-    drive.step(i, error);
-    error = drive.error();
-  }
+  const ErrorVector error = tilted(drive);
   drive.mean().correct(error, ErrorReset::Identity());  // all of it is known and taken out
   EXPECT_LT(drive.mean().mean()->v_eb_b.norm(), 1e-6);
 }
