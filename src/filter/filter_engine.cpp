@@ -151,8 +151,24 @@ Correction FilterEngine::place(const Placement& placement) {
   if (placement.heading_rad) {
     turnTo(*placement.heading_rad, placement.heading_std_rad);
   }
+  return *reissue();
+}
+
+std::optional<Correction> FilterEngine::reissue() {
+  if (!initialised_ || next_sequence_ == 0) {
+    return std::nullopt;
+  }
   steps_.clear();
   return Correction{next_sequence_ - 1, ++epoch_, state_};
+}
+
+InitialState FilterEngine::snapshot() const {
+  InitialState snapshot;
+  snapshot.nav = state_;
+  snapshot.vehicle = vehicle_;
+  snapshot.P = P_;
+  snapshot.tremor_variance = tremor_.variance();
+  return snapshot;
 }
 
 /// Turns the whole state about the vertical; the velocity goes along, and is as uncertain as its new direction.

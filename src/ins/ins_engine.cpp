@@ -19,7 +19,7 @@ InsEngine::InsEngine(const Planet& planet, const ImuInputParams& params)
       ring_(kInitialRing) {}
 
 void InsEngine::reset() {
-  first_ = next_ = end_ = base_ = 0;
+  first_ = next_ = end_ = begin_ = base_ = 0;
   epoch_ = 0;
   initialised_ = false;
   screen_.reset();
@@ -27,10 +27,16 @@ void InsEngine::reset() {
 
 void InsEngine::initialise(const NavigationState& state) {
   dropUpTo(state.stamp);
-  base_ = next_ = first_;
+  begin_ = base_ = next_ = first_;
   epoch_ = 0;
   initial_ = state;
   initialised_ = true;
+}
+
+void InsEngine::adopt(const Correction& correction) {
+  initialise(correction.state);
+  base_ = begin_ - (correction.sequence + 1);
+  epoch_ = correction.epoch;
 }
 
 ImuInterval InsEngine::steadyTurn(const NavigationState& state, const ImuInterval& interval) const {
@@ -93,18 +99,19 @@ std::optional<InsStep> InsEngine::step() {
   if (!initialised_ || next_ == end_) {
     return std::nullopt;
   }
-  const bool is_first = next_ == base_;
+  const bool is_first = next_ == begin_;
   Slot& current = slot(next_);
   const NavigationState& start = is_first ? initial_ : slot(next_ - 1).state;
   ImuInterval interval = current.interval;
+  double gap_s = current.gap_s;
   if (is_first) {  // the initial state may lie inside the interval of the sample that follows it, or before it
     const double duration_s = toSeconds(current.end - start.stamp);
     if (duration_s > gap_factor_ * interval.duration_s) {
-      current.gap_s = duration_s - interval.duration_s;
+      gap_s = duration_s - interval.duration_s;
     }
     interval.duration_s = duration_s;
   }
-  if (current.gap_s > max_bridged_gap_s_) {
+  if (gap_s > max_bridged_gap_s_) {
     interval = steadyTurn(start, interval);
   }
   const ImuInterval previous = is_first ? ImuInterval{} : slot(next_ - 1).interval;
@@ -117,7 +124,7 @@ std::optional<InsStep> InsEngine::step() {
   result.state = current.state;
   result.f_ib_b = interval.f_ib_b - start.accel_bias_b;
   result.omega_ib_b = interval.omega_ib_b - start.gyro_bias_b;
-  result.gap_s = current.gap_s;
+  result.gap_s = gap_s;
   ++next_;
   return result;
 }

@@ -366,11 +366,8 @@ InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until
   }
   navigator.initialise(start);
   navigator.completeUpTo(until, ignore);
-  InitialState result = start;
-  result.nav = navigator.filter().state();
-  result.vehicle = navigator.filter().vehicle();
-  result.P = navigator.filter().covariance();
-  result.tremor_variance = navigator.filter().tremorVariance();
+  InitialState result = navigator.filter().snapshot();
+  result.origin = start.origin;
   return result;
 }
 

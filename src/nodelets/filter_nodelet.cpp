@@ -1,13 +1,14 @@
 /// slipnav/Filter: the error-state Kalman filter.
 ///
 /// In: ins_steps, initial_state, joint_states or wheel_odometry, slip_forecast (for checkpoints). Out: correction,
-/// odometry, nav_state, slip, TF. Services: save_checkpoint, set_state.
+/// odometry, nav_state, slip, hand_over, start_request, TF. Services: save_checkpoint, set_state.
 
 #include <slipnav/FilterCorrection.h>
 #include <slipnav/InsSteps.h>
 #include <slipnav/SetState.h>
 #include <slipnav/SlipForecast.h>
 #include <slipnav/StartState.h>
+#include <std_msgs/UInt32.h>
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -33,7 +34,17 @@
 
 namespace slipnav {
 
+namespace {
+
+/// How often the state is handed over, in time of the stamps.
+constexpr Nanoseconds kHandOverInterval = 1'000'000'000;
+
+}  // namespace
+
 class FilterNodelet : public CoreNodelet {
+ public:
+  ~FilterNodelet() override { stop(); }
+
  private:
   void begin(const Config& config) override {
     engine_.emplace(Planet::byName(config.planet), config.navigation().filter);
@@ -59,6 +70,8 @@ class FilterNodelet : public CoreNodelet {
 
   void advertise(const Config& config) override {
     estimates_ = std::make_unique<EstimatePublisher>(getNodeHandle(), config);
+    hand_over_publisher_ = publisher<StartState>(kHandOverTopic, true);
+    request_publisher_ = publisher<std_msgs::UInt32>(kStartRequestTopic);
     correction_publisher_ = publisher<FilterCorrection>(kCorrectionTopic);
   }
 
@@ -73,8 +86,13 @@ class FilterNodelet : public CoreNodelet {
       end();
       return;
     }
+    if (started_ && message->session == session_) {
+      wheel_sessions_.pause();  // a new start without a new clock
+    }
     started_ = true;
-    has_steps_ = false;
+    has_steps_ = lost_ = false;
+    session_ = message->session;
+    handed_over_ = 0;
     const InitialState initial = fromMessage(*message);
     gate_.restart();
     health_->restart();
@@ -84,6 +102,7 @@ class FilterNodelet : public CoreNodelet {
       useWheels(wheels);
     }
     engine_->initialise(initial);
+    origin_ = initial.origin;
     checkpoints_->start(initial.origin, message->session);
     estimates_->start(initial.origin, lever_imu_to_base_b_, engine_->dynamics().gyroNoiseDensity());
     const std::vector<InsSteps::ConstPtr> early = std::move(early_steps_);
@@ -95,9 +114,10 @@ class FilterNodelet : public CoreNodelet {
 
   /// The estimate ends; a new start is looked for.
   void end() {
-    started_ = has_steps_ = false;
+    started_ = has_steps_ = lost_ = false;
     engine_->reset();
     wheel_sessions_.pause();
+    handOver(boost::make_shared<StartState>());
   }
 
   void onSteps(const InsSteps::ConstPtr& message) {
@@ -105,8 +125,19 @@ class FilterNodelet : public CoreNodelet {
       early_steps_.push_back(message);
       return;
     }
-    if (!started_ || message->start != start_) {
+    if (!started_ || message->start != start_ || message->steps.empty()) {
       return;
+    }
+    if (!has_steps_ && !isBeginning(*message)) {
+      requestStart();
+      return;
+    }
+    const Nanoseconds first_end = toNanoseconds(message->steps.front().state.stamp);
+    if (!has_steps_) {
+      first_end_ = first_end;
+    } else if (isBeginning(*message) && first_end > first_end_) {
+      first_end_ = first_end;
+      restartMechanisation();
     }
     has_steps_ = true;
     const double now_s = now();
@@ -115,6 +146,29 @@ class FilterNodelet : public CoreNodelet {
       look_ahead_.addStep(toNanoseconds(interval.state.stamp));
     }
     proceed();
+  }
+
+  static bool isBeginning(const InsSteps& steps) { return steps.epoch == 0 && steps.steps.front().sequence == 0; }
+
+  /// This nodelet was loaded anew: the steps from the initial state on are gone.
+  void requestStart() {
+    if (!lost_) {
+      NODELET_WARN("the mechanisation is ahead of this filter, which asks for a new start");
+    }
+    lost_ = true;
+    const auto message = boost::make_shared<std_msgs::UInt32>();
+    message->data = start_;
+    request_publisher_.publish(message);
+  }
+
+  /// The mechanisation was loaded anew: its first steps are void, and it goes on from the filter's state.
+  void restartMechanisation() {
+    NODELET_WARN("the mechanisation begins anew");
+    gate_.clear();
+    look_ahead_.forgetSteps();
+    if (const std::optional<Correction> correction = engine_->reissue()) {
+      tell(correction);
+    }
   }
 
   template <class Message>
@@ -158,6 +212,7 @@ class FilterNodelet : public CoreNodelet {
         engine_->advance([this](const Estimate& estimate, const ErrorCovariance& P) {
           look_ahead_.processed(estimate.nav.stamp);
           checkpoints_->offer(*engine_);
+          handOverIfDue(estimate.nav.stamp);
           estimates_->publish(estimate, P);
         });
     health_->noteFilter(*engine_);
@@ -166,6 +221,24 @@ class FilterNodelet : public CoreNodelet {
     } else if (look_ahead_.isStalled()) {
       tell(std::nullopt);
     }
+  }
+
+  void handOverIfDue(Nanoseconds stamp) {
+    if (stamp - handed_over_ < kHandOverInterval) {
+      return;
+    }
+    handed_over_ = stamp;
+    InitialState state = engine_->snapshot();
+    state.origin = origin_;
+    const auto message = boost::make_shared<StartState>();
+    fill(state, *message);
+    handOver(message);
+  }
+
+  void handOver(const boost::shared_ptr<StartState>& message) {
+    message->start = start_;
+    message->session = session_;
+    hand_over_publisher_.publish(message);
   }
 
   void takeCorrection(const Correction& correction) {
@@ -202,6 +275,7 @@ class FilterNodelet : public CoreNodelet {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(has_steps_ && wheel_messages_ > 0 ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    !started_             ? "waiting for the initial state"
+                   : lost_               ? "loaded anew, waiting for a new start"
                    : !has_steps_         ? "waiting for the mechanisation"
                    : wheel_messages_ > 0 ? "running"
                                          : "no wheel samples");
@@ -234,10 +308,17 @@ class FilterNodelet : public CoreNodelet {
   WheelSessions wheel_sessions_;
   std::vector<InsSteps::ConstPtr> early_steps_;
   bool started_ = false;
-  bool has_steps_ = false;   ///< since the start
-  std::uint32_t start_ = 0;  ///< count of the initial state in use
+  bool has_steps_ = false;     ///< since the start
+  bool lost_ = false;          ///< the steps from the start on are gone
+  Nanoseconds first_end_ = 0;  ///< of the first step since the start
+  std::uint32_t start_ = 0;    ///< count of the initial state in use
+  std::uint32_t session_ = 0;  ///< of that state
+  Geodetic origin_;            ///< likewise
+  Nanoseconds handed_over_ = 0;
   std::uint64_t wheel_messages_ = 0;
   std::uint64_t rejected_ = 0;
+  SharedPublisher<StartState> hand_over_publisher_;
+  SharedPublisher<std_msgs::UInt32> request_publisher_;
   SharedPublisher<FilterCorrection> correction_publisher_;
 };
 

@@ -22,6 +22,9 @@
 namespace slipnav {
 
 class ForecastNodelet : public CoreNodelet {
+ public:
+  ~ForecastNodelet() override { stop(); }
+
  private:
   void begin(const Config& config) override {
     frames_ = config.frames;

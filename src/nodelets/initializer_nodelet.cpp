@@ -1,19 +1,23 @@
 /// slipnav/Initializer: finds where to start.
 ///
-/// In: imu/data, joint_states or wheel_odometry, gps/fix. Out, latched: initial_state, initialization, TF map → odom.
+/// In: imu/data, joint_states or wheel_odometry, gps/fix; hand_over, start_request. Out, latched: initial_state,
+/// initialization, TF map → odom.
 /// Services: initialise, reset.
 
 #include <sensor_msgs/Imu.h>
 #include <slipnav/Initialization.h>
 #include <slipnav/StartState.h>
+#include <std_msgs/UInt32.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "slipnav/config/text.h"
 #include "slipnav/math/rotation.h"
@@ -30,6 +34,9 @@
 namespace slipnav {
 
 class InitializerNodelet : public CoreNodelet {
+ public:
+  ~InitializerNodelet() override { stop(); }
+
  private:
   void begin(const Config& config) override {
     if (config.initialization.source == "truth") {
@@ -49,6 +56,8 @@ class InitializerNodelet : public CoreNodelet {
   }
 
   void subscribe(const Config& config) override {
+    listen<StartState>(kHandOverTopic, &InitializerNodelet::onHandOver);  // first: it says whether to start at all
+    listen<std_msgs::UInt32>(kStartRequestTopic, &InitializerNodelet::onStartRequest);
     listen<sensor_msgs::Imu>(config.topics.imu, &InitializerNodelet::onImu);
     listen<sensor_msgs::JointState>(config.topics.joint_states, &InitializerNodelet::onWheels<sensor_msgs::JointState>);
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &InitializerNodelet::onWheels<nav_msgs::Odometry>);
@@ -67,11 +76,51 @@ class InitializerNodelet : public CoreNodelet {
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
     merger_->push(toImuSample(*message, *mount_));
     trusted_.push(merger_->newestImuStamp(), now());
+    takeOver(merger_->newestImuStamp());
     resume(merger_->newestImuStamp());
     proceed();
   }
 
-  /// Goes on from a checkpoint, if there is one that is good for it.
+  void onHandOver(const StartState::ConstPtr& message) {
+    if (start_ == 0) {
+      running_ = message;
+    } else if (message->known && message->start == start_ && message->session == session_) {
+      resumption_->offer(fromMessage(*message));
+    }
+  }
+
+  /// Loaded beside an estimate that is running: there is nothing to look for, unless it is of before the clock went
+  /// back.
+  void takeOver(Nanoseconds stamp) {
+    if (stamp == 0) {
+      return;
+    }
+    const StartState::ConstPtr running = std::exchange(running_, nullptr);
+    if (start_ != 0 || !running || !running->known || stamp <= toNanoseconds(running->state.stamp) - kRestartBackstep) {
+      return;
+    }
+    start_ = running->start;
+    session_ = running->session;
+    done_ = true;
+    const InitialState state = fromMessage(*running);
+    resumption_->offer(state);
+    publishStart(state, running, "went on with the estimate that was running");
+  }
+
+  /// The filter was loaded anew.
+  void onStartRequest(const std_msgs::UInt32::ConstPtr& message) {
+    if (!done_ || message->data != start_) {
+      return;
+    }
+    done_ = false;
+    resume(merger_->newestImuStamp());
+    if (!done_) {
+      NODELET_WARN("the filter has lost the estimate: a new start");
+      searchAnew();
+    }
+  }
+
+  /// Goes on from where an estimate ended, if that is known and good for it.
   void resume(Nanoseconds stamp) {
     if (done_ || stamp == 0 || !resumption_->isPossible()) {
       return;
@@ -79,7 +128,7 @@ class InitializerNodelet : public CoreNodelet {
     try {
       const InitialState initial = resumption_->resume(stamp);
       done_ = true;
-      announce(initial, "resumed " + formatNumber(resumption_->unwatched()) + " s after the checkpoint");
+      announce(initial, "resumed " + formatNumber(resumption_->unwatched()) + " s after the last state known");
     } catch (const std::invalid_argument& error) {
       NODELET_WARN("a new start: %s", error.what());
     }
@@ -142,11 +191,9 @@ class InitializerNodelet : public CoreNodelet {
   /// Ends the estimate and looks for a start anew.
   void searchAnew() {
     initializer_->reset();
+    resumption_->forget();
     done_ = false;
-    const auto message = boost::make_shared<StartState>();
-    message->start = ++starts_;
-    message->session = session_;
-    start_publisher_.publish(message);
+    start_publisher_.publish(nextStart());
     reportProgress();
   }
 
@@ -161,13 +208,23 @@ class InitializerNodelet : public CoreNodelet {
     response.message = progress_;
   }
 
-  void announce(const InitialState& initial, const std::string& how) {
+  boost::shared_ptr<StartState> nextStart() {
+    ++starts_;
+    start_ = std::max(start_, first_start_) + 1;
     const auto message = boost::make_shared<StartState>();
-    message->start = ++starts_;
+    message->start = start_;
     message->session = session_;
-    fill(initial, *message);
-    start_publisher_.publish(message);
+    return message;
+  }
 
+  void announce(const InitialState& initial, const std::string& how) {
+    const boost::shared_ptr<StartState> message = nextStart();
+    fill(initial, *message);
+    publishStart(initial, message, how);
+  }
+
+  void publishStart(const InitialState& initial, const StartState::ConstPtr& message, const std::string& how) {
+    start_publisher_.publish(message);
     geometry_msgs::TransformStamped map_to_odom;
     map_to_odom.header.stamp = message->state.stamp;
     map_to_odom.header.frame_id = frames_.map;
@@ -223,8 +280,12 @@ class InitializerNodelet : public CoreNodelet {
   std::optional<Initializer> initializer_;
   std::optional<Resumption> resumption_;
   TrustedStamp trusted_;
-  std::uint32_t session_ = 0;  ///< restarts of the IMU's clock
-  std::uint32_t starts_ = 0;   ///< initial states announced, and searches begun anew
+  StartState::ConstPtr running_;  ///< of the estimate that was there before this nodelet
+  std::uint32_t session_ = 0;     ///< restarts of the IMU's clock
+  std::uint32_t starts_ = 0;      ///< initial states announced, and searches begun anew
+  std::uint32_t start_ = 0;       ///< count of the newest of them
+  /// Counts begin here: beyond those of an initialiser that was unloaded before.
+  const std::uint32_t first_start_ = static_cast<std::uint32_t>(now());
   bool done_ = false;
   std::string progress_;
   tf2_ros::StaticTransformBroadcaster tf_;

@@ -22,7 +22,20 @@
 
 namespace slipnav {
 
+namespace {
+
+/// [s] of real time after which what the filter has not answered is said again: it may have been loaded only now.
+constexpr double kRepeatInterval_s = 0.5;
+/// [s] of real time after which an initial state of a session that never began here is believed to be of the present
+/// one: this nodelet may have been loaded in the middle of it.
+constexpr double kSessionPatience_s = 2.0;
+
+}  // namespace
+
 class InsNodelet : public CoreNodelet {
+ public:
+  ~InsNodelet() override { stop(); }
+
  private:
   void begin(const Config& config) override {
     mount_.emplace(config.imu.mount);
@@ -62,7 +75,12 @@ class InsNodelet : public CoreNodelet {
   }
 
   void onInitialState(const StartState::ConstPtr& message) {
+    if (message->start <= newest_start_) {
+      return;
+    }
+    newest_start_ = message->start;
     start_ = message->known ? message : StartState::ConstPtr();
+    start_came_s_ = now();
     if (!message->known && message->session == session_) {
       engine_->release();
     }
@@ -73,7 +91,7 @@ class InsNodelet : public CoreNodelet {
   /// An initial state belongs to the session that counts as many restarts of the clock, and is used once the samples
   /// have reached it.
   void startIfDue() {
-    if (!start_ || start_->session != session_ || engine_->newestStamp() < toNanoseconds(start_->state.stamp)) {
+    if (!start_ || !isOfThisSession(*start_) || engine_->newestStamp() < toNanoseconds(start_->state.stamp)) {
       return;
     }
     engine_->initialise(fromMessage(start_->state));
@@ -81,21 +99,27 @@ class InsNodelet : public CoreNodelet {
     last_step_ = toNanoseconds(start_->state.stamp);
     run_until_ = last_step_ + 1;
     start_.reset();
-    is_answered_ = false;
     unanswered_.reset();
+  }
+
+  bool isOfThisSession(const StartState& start) {
+    const bool never_started = start_count_ == 0;
+    if (never_started && start.session > session_ && now() - start_came_s_ >= kSessionPatience_s) {
+      session_ = start.session;
+    }
+    return start.session == session_;
   }
 
   void onCorrection(const FilterCorrection::ConstPtr& message) {
     if (message->start != start_count_ || !engine_->isInitialised()) {
       return;
     }
-    is_answered_ = true;
     unanswered_.reset();
     if (message->corrects) {
-      if (!engine_->correct(fromMessage(*message))) {
-        NODELET_ERROR("correction for step %lu, which is not there any more",
-                      static_cast<unsigned long>(message->sequence));
-        return;
+      const Correction correction = fromMessage(*message);
+      if (!engine_->correct(correction)) {
+        NODELET_WARN("going on from the filter's state at %.3f s", toSeconds(correction.state.stamp));
+        engine_->adopt(correction);
       }
       last_step_ = toNanoseconds(message->state.stamp);
     }
@@ -117,15 +141,20 @@ class InsNodelet : public CoreNodelet {
     }
     if (!batch->steps.empty()) {
       batch->start = start_count_;
-      steps_publisher_.publish(batch);
-      unanswered_ = is_answered_ ? nullptr : batch;
+      unanswered_ = batch;
+      send();
     }
   }
 
-  /// The filter may be loaded later.
+  void send() {
+    steps_publisher_.publish(unanswered_);
+    published_s_ = now();
+    published_at_ = samples_;
+  }
+
   void onTick() override {
-    if (unanswered_) {
-      steps_publisher_.publish(unanswered_);
+    if (unanswered_ && samples_ > published_at_ && now() - published_s_ >= kRepeatInterval_s) {
+      send();
     }
   }
 
@@ -155,13 +184,16 @@ class InsNodelet : public CoreNodelet {
   JumpFilter<ImuSample> jumps_;
   std::optional<InsEngine> engine_;
   std::optional<HealthMonitor> health_;
-  StartState::ConstPtr start_;     ///< not yet used
-  std::uint32_t session_ = 0;      ///< restarts of the IMU's clock
-  std::uint32_t start_count_ = 0;  ///< of the initial state in use
-  bool is_answered_ = false;       ///< the filter has the steps from this initial state on
-  boost::shared_ptr<const InsSteps> unanswered_;
-  Nanoseconds last_step_ = 0;  ///< end of the newest step
-  Nanoseconds run_until_ = 0;  ///< what the filter has use for
+  StartState::ConstPtr start_;  ///< not yet used
+  double start_came_s_ = 0.0;
+  std::uint32_t newest_start_ = 0;  ///< count of the newest initial state that came
+  std::uint32_t session_ = 0;       ///< restarts of the IMU's clock
+  std::uint32_t start_count_ = 0;   ///< of the initial state in use
+  InsSteps::ConstPtr unanswered_;   ///< the newest steps, until the filter answers
+  double published_s_ = 0.0;
+  std::uint64_t published_at_ = 0;  ///< count of samples
+  Nanoseconds last_step_ = 0;       ///< end of the newest step
+  Nanoseconds run_until_ = 0;       ///< what the filter has use for
   std::uint64_t samples_ = 0;
   std::uint64_t gaps_ = 0;
   std::uint64_t rejected_ = 0;

@@ -26,7 +26,18 @@
 
 namespace slipnav {
 
+namespace {
+
+/// A start with the same origin, at most so long before the newest estimate [s], goes on with the same drive. After a
+/// clock that has gone back it is a new one.
+constexpr double kSameDrive_s = 5.0;
+
+}  // namespace
+
 class OverlayNodelet : public CoreNodelet {
+ public:
+  ~OverlayNodelet() override { stop(); }
+
  private:
   void begin(const Config& config) override {
     params_ = config.overlay;
@@ -64,6 +75,11 @@ class OverlayNodelet : public CoreNodelet {
   }
 
   void onInitialization(const Initialization::ConstPtr& message) {
+    const bool goes_on = message->done && goesOn(*message);
+    drive_ = message;
+    if (goes_on) {
+      return;
+    }
     if (!message->done) {
       picture_->clear();
       messages_ = {};
@@ -71,6 +87,12 @@ class OverlayNodelet : public CoreNodelet {
     }
     const Geodetic origin{degToRad(message->latitude_deg), degToRad(message->longitude_deg), message->height_m};
     picture_->start(LocalFrame(*planet_, origin), toNanoseconds(message->header.stamp));
+  }
+
+  bool goesOn(const Initialization& start) const {
+    return drive_ && drive_->done && picture_->newest() && start.latitude_deg == drive_->latitude_deg &&
+           start.longitude_deg == drive_->longitude_deg && start.height_m == drive_->height_m &&
+           toSeconds(picture_->newest()->stamp - toNanoseconds(start.header.stamp)) < kSameDrive_s;
   }
 
   void onEstimate(const nav_msgs::Odometry::ConstPtr& message) {
@@ -163,6 +185,7 @@ class OverlayNodelet : public CoreNodelet {
   std::optional<DrivePicture> picture_;
   std::optional<OverlayMarkers> markers_;
   OverlayMessages messages_;
+  Initialization::ConstPtr drive_;  ///< where the present drive began
   ModelJoints joints_;
   tf2_ros::TransformBroadcaster tf_;
   double published_at_s_ = 0.0;

@@ -47,6 +47,9 @@ constexpr double kStartLag_s = 1.0;
 }  // namespace
 
 class SimulatorNodelet : public CoreNodelet {
+ public:
+  ~SimulatorNodelet() override { stop(); }
+
  private:
   enum class Waiting { kForNodelets, kForTime, kForCommand, kForStatus, kForEstimates, kForNothing };
 

@@ -29,6 +29,9 @@
 namespace slipnav {
 
 class StopSupervisorNodelet : public CoreNodelet {
+ public:
+  ~StopSupervisorNodelet() override { stop(); }
+
  private:
   void begin(const Config& config) override {
     frames_ = config.frames;

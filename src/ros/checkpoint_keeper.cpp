@@ -18,11 +18,8 @@ void CheckpointKeeper::start(const Geodetic& origin, std::uint32_t session) {
 
 Checkpoint CheckpointKeeper::checkpointOf(const FilterEngine& filter) const {
   Checkpoint checkpoint;
-  checkpoint.state.nav = filter.state();
-  checkpoint.state.vehicle = filter.vehicle();
-  checkpoint.state.P = filter.covariance();
+  checkpoint.state = filter.snapshot();
   checkpoint.state.origin = origin_;
-  checkpoint.state.tremor_variance = filter.tremorVariance();
   checkpoint.session = session_;
   checkpoint.slip_hyperparameters = slip_hyperparameters_;
   return checkpoint;

@@ -53,6 +53,14 @@ void CoreNodelet::onInit() {
   }
 }
 
+void CoreNodelet::stop() {
+  tick_timer_.stop();
+  diagnostics_timer_.stop();
+  subscribers_.clear();
+  services_.clear();
+  tuning_.reset();
+}
+
 void CoreNodelet::guarded(const std::function<void()>& work) {
   const std::lock_guard<std::mutex> lock(mutex_);
   try {

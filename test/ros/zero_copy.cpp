@@ -115,6 +115,7 @@ std::vector<Probe> probes(const TopicNames& topics) {
   all.push_back(probe<Initialization>(kInitializationTopic));
   all.push_back(probe<InsSteps>(kInsStepsTopic));
   all.push_back(probe<FilterCorrection>(kCorrectionTopic));
+  all.push_back(probe<StartState>(kHandOverTopic));
   all.push_back(probe<ForecastInput>(kForecastInputTopic));
   all.push_back(probe<std_msgs::Header>(kForecastProgressTopic));
   all.push_back(probe<nav_msgs::Odometry>(topics.odometry));
@@ -220,6 +221,7 @@ class ZeroCopy : public ::testing::Test {
 TEST_F(ZeroCopy, InsKeepsTheInitialStateThatItWaitsWith) {
   load("/ins", "slipnav/Ins");
   const auto state = boost::make_shared<StartState>();
+  state->start = 1;
   state->known = true;
   state->state.stamp = ros::Time(100.0);  // no sample has come so far
   expectHeld(kInitialStateTopic, state);
@@ -336,8 +338,10 @@ TEST_F(ZeroCopyDrive, EveryTopicPassesTheVeryObjects) {
   EXPECT_EQ(probeOf(config_.topics.cmd_vel_in).first->received, commands_.sent());
 
   // Of latched topics roscpp keeps the bytes of the newest message for those who come later.
-  const std::set<std::string> latched = {kInitialStateTopic,        kInitializationTopic,      config_.topics.path,
-                                         config_.topics.truth_path, config_.topics.wheel_path, config_.topics.markers};
+  const std::set<std::string> latched = {kInitialStateTopic,        kHandOverTopic,
+                                         kInitializationTopic,      config_.topics.path,
+                                         config_.topics.truth_path, config_.topics.wheel_path,
+                                         config_.topics.markers};
   std::map<std::string, Traffic> counted = traffic();
   const std::set<std::string> to_outside = topicsToOutside();
   for (const Probe& probe : probes_) {
@@ -349,9 +353,10 @@ TEST_F(ZeroCopyDrive, EveryTopicPassesTheVeryObjects) {
 }
 
 TEST_F(ZeroCopyDrive, NoTopicIsWithoutAProbe) {
-  // TF and diagnostics are for others, and published by libraries of theirs. Tuning is there when somebody tunes.
+  // TF and diagnostics are for others, and published by libraries of theirs. Tuning is there when somebody tunes;
+  // nobody requests a start in this drive.
   std::set<std::string> known = {"/rosout", "/tf", "/tf_static", node_.resolveName(config_.topics.diagnostics),
-                                 node_.resolveName(kTuningTopic)};
+                                 node_.resolveName(kTuningTopic), node_.resolveName(kStartRequestTopic)};
   for (const std::string tuned : {"/Filter", "/Forecast", "/StopSupervisor"}) {
     known.insert({tuned + "/parameter_descriptions", tuned + "/parameter_updates"});
   }

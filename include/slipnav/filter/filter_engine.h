@@ -52,6 +52,10 @@ class FilterEngine {
   /// slip stays. Throws std::invalid_argument for impossible numbers, and when nothing has been processed yet.
   Correction place(const Placement& placement);
 
+  /// The state that was processed last, for a mechanisation that has lost its own and begins anew from it. Nothing when
+  /// nothing has been processed yet.
+  std::optional<Correction> reissue();
+
   /// Says that no wheel sample up to `stamp` is still to come.
   void assumeCompleteUpTo(Nanoseconds stamp);
 
@@ -62,11 +66,12 @@ class FilterEngine {
   /// to reach the mechanisation, whose new steps come back by push().
   std::optional<Correction> advance(const EstimateSink& sink);
 
+  /// All that is needed to go on elsewhere, but for the origin of the map frame.
+  InitialState snapshot() const;
+
   /// At the end of the step that was processed last.
   const ErrorCovariance& covariance() const { return P_; }
   const NavigationState& state() const { return state_; }
-  const VehicleState& vehicle() const { return vehicle_; }
-  double tremorVariance() const { return tremor_.variance(); }
   const ErrorTransition& lastTransition() const { return transition_; }
   const ComponentStatus& status(Component component) const { return update_.status(component); }
   const ErrorDynamics& dynamics() const { return dynamics_; }

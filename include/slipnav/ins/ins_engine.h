@@ -54,6 +54,10 @@ class InsEngine {
   /// @return false when that step is no longer, or not yet, there
   bool correct(const Correction& correction);
 
+  /// Goes on from a correction without the steps up to it, which another engine has made: what lies between its state
+  /// and the first sample is a gap.
+  void adopt(const Correction& correction);
+
   /// Stamp of the newest accepted sample, 0 before the first.
   Nanoseconds newestStamp() const { return screen_.newestStamp(); }
   const Planet& planet() const { return strapdown_.planet(); }
@@ -82,7 +86,8 @@ class InsEngine {
   std::uint64_t first_ = 0;  ///< oldest buffered sequence
   std::uint64_t next_ = 0;   ///< next to be mechanised
   std::uint64_t end_ = 0;    ///< one past the newest buffered
-  std::uint64_t base_ = 0;   ///< ring sequence that counts as step 0
+  std::uint64_t begin_ = 0;  ///< ring sequence of the step that begins at `initial_`
+  std::uint64_t base_ = 0;   ///< ring sequence that counts as step 0; where that was made elsewhere, below 0, wrapped
   std::uint32_t epoch_ = 0;
   bool initialised_ = false;
   NavigationState initial_;

@@ -1,5 +1,6 @@
 #pragma once
-/// The one chance after a start of the program to go on from the checkpoint of its predecessor.
+/// The one chance to go on where an estimate ended: from the checkpoint of the program's predecessor, or from what the
+/// filter handed over last.
 
 #include <optional>
 #include <string>
@@ -19,6 +20,9 @@ class Resumption {
   /// Files that were there and could not be used, one line each.
   const std::vector<std::string>& refused() const { return refused_; }
 
+  /// Holds a newer state instead.
+  void offer(const InitialState& state) { checkpoint_ = Checkpoint{state, 0, {}}; }
+
   bool isPossible() const { return checkpoint_.has_value(); }
 
   /// The state to go on from at `now` (see resumeFrom()); it is given once. Throws std::invalid_argument when the
@@ -28,7 +32,7 @@ class Resumption {
   /// How long the vehicle was unwatched before it went on [s].
   double unwatched() const { return unwatched_s_; }
 
-  /// What was read is not to be used.
+  /// What is held is not to be used.
   void forget() { checkpoint_.reset(); }
 
   /// Likewise, and no later start shall find it either.

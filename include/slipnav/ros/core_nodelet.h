@@ -49,6 +49,9 @@ class CoreNodelet : public nodelet::Nodelet {
   /// Called regularly by the wall clock.
   virtual void onTick() {}
 
+  /// No more calls: waits for those that run. To be called by the destructor of every nodelet, whose members they use.
+  void stop();
+
   /// No exception leaves the callback.
   template <class Message, class Self>
   void listen(const std::string& topic, void (Self::*handler)(const boost::shared_ptr<const Message>&)) {

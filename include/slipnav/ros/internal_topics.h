@@ -6,6 +6,11 @@ namespace slipnav {
 inline constexpr const char* kInitialStateTopic = "initial_state";
 inline constexpr const char* kInsStepsTopic = "ins_steps";
 inline constexpr const char* kCorrectionTopic = "correction";
+/// Filter to Initializer, latched: slipnav/StartState, the state once a second of the stamps, for a new start when the
+/// filter is gone, and for an initialiser that finds an estimate running. Not `known`: there is no estimate.
+inline constexpr const char* kHandOverTopic = "hand_over";
+/// Filter to Initializer: std_msgs/UInt32, the start whose first steps the filter has missed; it wants a new one.
+inline constexpr const char* kStartRequestTopic = "start_request";
 inline constexpr const char* kInitializationTopic = "initialization";
 /// Filter to Forecast: slipnav/ForecastInput, one per wheel interval.
 inline constexpr const char* kForecastInputTopic = "forecast_input";
