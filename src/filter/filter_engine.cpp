@@ -115,7 +115,7 @@ bool FilterEngine::push(const WheelMotion& wheels) {
     beginWheels(wheels, state_.stamp);
     return true;
   }
-  if (!finite || (initialised_ && wheels.stamp <= state_.stamp)) {
+  if (!finite || (initialised_ && isPast(wheels.stamp))) {
     return false;
   }
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
@@ -128,6 +128,10 @@ bool FilterEngine::push(const WheelMotion& wheels) {
   }
   wheels_.insertSorted(wheels, earlier<WheelMotion>);
   return true;
+}
+
+bool FilterEngine::isPast(Nanoseconds wheels) const {
+  return wheels <= cadence_.newest() || cadence_.due(wheels) <= state_.stamp;
 }
 
 void FilterEngine::assumeCompleteUpTo(Nanoseconds stamp) { complete_until_ = std::max(complete_until_, stamp); }
@@ -185,7 +189,7 @@ Nanoseconds FilterEngine::wheelsKnownUntil() const {
   for (std::size_t i = 0; i < wheels_.size() && !cadence_.isHole(known, wheels_[i].stamp); ++i) {
     known = wheels_[i].stamp;
   }
-  return std::max(known, complete_until_);
+  return std::max({known, complete_until_, cadence_.quietUntil() - 1});
 }
 
 bool FilterEngine::push(const PositionFix& fix) {
@@ -263,29 +267,41 @@ void FilterEngine::forgetSlipImpulse() {
   slipping_until_ = 0;
 }
 
+bool FilterEngine::hasWheelsUpTo(Nanoseconds stamp) const {
+  return !wheels_.empty() && cadence_.due(wheels_.front().stamp) <= stamp;
+}
+
+/// The next wheel sample, at the time when it counts.
+WheelMotion FilterEngine::takeWheels() {
+  WheelMotion wheels = wheels_.front();
+  wheels_.pop_front();
+  const Nanoseconds due = cadence_.due(wheels.stamp);
+  cadence_.add(wheels.stamp);
+  wheels.stamp = due;
+  return wheels;
+}
+
 bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
   estimate_.has_wheels = false;
   if (toSeconds(step.state.stamp - estimate_.wheels.stamp) > setup_.filter.max_wheel_interval_s) {
     estimate_.stationary = false;
   }
   bool corrected = false;
-  while (!wheels_.empty() && wheels_.front().stamp <= step.state.stamp) {
-    const WheelMotion wheels = wheels_.front();
-    wheels_.pop_front();
+  while (hasWheelsUpTo(step.state.stamp)) {
+    const WheelMotion wheels = takeWheels();
     const double interval_s = toSeconds(wheels.stamp - average_.start());
     addMotion(step, v_mean_b, wheels.stamp);
     const std::optional<BodyMotion> motion = average_.mean();
     detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
     // Of several in one step, as in a gap of the IMU, the last one counts: what they are compared with does not follow
     // from one correction to the next.
-    const bool is_last = wheels_.empty() || wheels_.front().stamp > step.state.stamp;
+    const bool is_last = !hasWheelsUpTo(step.state.stamp);
     if (is_last && average_.start() != 0 && interval_s <= setup_.filter.max_wheel_interval_s && motion) {
       corrected = applyWheelSample(wheels, *motion) || corrected;
     } else {
       vertical_average_.restart(wheels.stamp);
     }
     average_.restart(wheels.stamp);
-    cadence_.add(wheels.stamp);
     recent_wheel_speed_mps_ += kRecentSpeedGain * (wheels.motion.forward_mps - recent_wheel_speed_mps_);
   }
   addMotion(step, corrected ? referenceVelocity(step) : v_mean_b, step.state.stamp);

@@ -1,13 +1,12 @@
 #include "slipnav/filter/wheel_cadence.h"
 
-#include <algorithm>
-
 namespace slipnav {
 namespace {
 
 constexpr int kIntervalsToLearn = 4;
 constexpr double kGain = 0.05;
 constexpr double kHoleFactor = 1.5;
+constexpr double kQuietFraction = 0.9;  // of the shortest interval
 
 }  // namespace
 
@@ -15,6 +14,7 @@ void WheelCadence::restart(Nanoseconds stamp) {
   newest_ = stamp;
   intervals_ = 0;
   usual_s_ = 0.0;
+  shortest_s_ = longest_s_;
 }
 
 void WheelCadence::add(Nanoseconds stamp) {
@@ -25,10 +25,15 @@ void WheelCadence::add(Nanoseconds stamp) {
   }
   ++intervals_;
   usual_s_ += std::max(kGain, 1.0 / intervals_) * (interval_s - usual_s_);
+  shortest_s_ = std::min(interval_s, shortest_s_ + kGain * (interval_s - shortest_s_));
 }
 
 bool WheelCadence::isHole(Nanoseconds from, Nanoseconds to) const {
   return intervals_ < kIntervalsToLearn || toSeconds(to - from) > kHoleFactor * usual_s_;
+}
+
+Nanoseconds WheelCadence::quietUntil() const {
+  return intervals_ < kIntervalsToLearn ? newest_ : newest_ + fromSeconds(kQuietFraction * shortest_s_);
 }
 
 }  // namespace slipnav

@@ -54,4 +54,24 @@ TEST(WheelCadence, ARestartForgets) {
 }
 
 }  // namespace
+TEST(WheelCadence, NoneIsDueSoonAfterTheLast) {
+  EXPECT_EQ(regular(3, 100).quietUntil(), regular(3, 100).newest());
+  const WheelCadence cadence = regular(20, 100);
+  EXPECT_EQ(cadence.quietUntil(), cadence.newest() + 90 * kMillisecond);
+  EXPECT_EQ(cadence.due(cadence.newest() + 50 * kMillisecond), cadence.quietUntil());
+  EXPECT_EQ(cadence.due(cadence.newest() + 97 * kMillisecond), cadence.newest() + 97 * kMillisecond);
+}
+
+TEST(WheelCadence, OneThatComesEarlyIsBelievedAtOnceAndForgottenSlowly) {
+  WheelCadence cadence = regular(20, 100);
+  cadence.add(cadence.newest() + 50 * kMillisecond);
+  EXPECT_EQ(cadence.quietUntil(), cadence.newest() + 45 * kMillisecond);
+  cadence.add(cadence.newest() + 100 * kMillisecond);
+  EXPECT_LT(cadence.quietUntil(), cadence.newest() + 50 * kMillisecond);
+  for (int i = 0; i < 100; ++i) {
+    cadence.add(cadence.newest() + 100 * kMillisecond);
+  }
+  EXPECT_GT(cadence.quietUntil(), cadence.newest() + 89 * kMillisecond);
+}
+
 }  // namespace slipnav

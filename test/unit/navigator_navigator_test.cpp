@@ -34,11 +34,12 @@ const EstimateLog& sequentialRun() {
 enum class Lag { kConstant, kRandomInOrder, kRandom };
 
 /// Wheels arrive up to `lag_s` later than their stamps say, and overtake each other only with Lag::kRandom.
-std::vector<DriveSample> withLateWheels(double lag_s, Lag kind) {
+std::vector<DriveSample> withLateWheels(double lag_s, Lag kind,
+                                        const std::vector<DriveSample>& samples = drive().samples) {
   sim::RandomStream random(1, "lag");
   std::vector<std::pair<Nanoseconds, DriveSample>> arrivals;
   Nanoseconds newest_wheels = 0;
-  for (const DriveSample& sample : drive().samples) {
+  for (const DriveSample& sample : samples) {
     const double lag = sample.is_imu ? 0.0 : lag_s * (kind == Lag::kConstant ? 1.0 : random.uniform());
     Nanoseconds arrival = sample.stamp() + fromSeconds(lag);
     if (!sample.is_imu && kind != Lag::kRandom) {
@@ -53,6 +54,20 @@ std::vector<DriveSample> withLateWheels(double lag_s, Lag kind) {
     result.push_back(sample);
   }
   return result;
+}
+
+/// Wheel samples that are regular but for one of nine, which is early.
+std::vector<DriveSample> withEarlyStamps(double early_s) {
+  std::vector<DriveSample> samples = drive().samples;
+  int count = 0;
+  for (DriveSample& sample : samples) {
+    if (!sample.is_imu && ++count % 9 == 0) {
+      sample.wheels.stamp -= fromSeconds(early_s);
+    }
+  }
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const DriveSample& a, const DriveSample& b) { return a.stamp() < b.stamp(); });
+  return samples;
 }
 
 bool isFiniteEstimate(const LoggedEstimate& logged) { return isFinite(logged.estimate.nav) && logged.P.allFinite(); }
@@ -86,6 +101,42 @@ TEST(Navigator, WheelsThatOvertakeEachOtherMakeNoDifference) {
       sameEstimates(runNavigator(config(), drive().initial, withLateWheels(0.5, Lag::kRandom)), sequentialRun()));
   EXPECT_TRUE(
       sameEstimates(runNavigator(config(), drive().initial, withLateWheels(0.9, Lag::kRandom)), sequentialRun()));
+}
+
+/// Samples that come before they are due are used as well, and when they arrive makes no difference either.
+TEST(Navigator, WheelsBeforeTheyAreDueGiveTheSameHoweverLate) {
+  const std::vector<DriveSample> samples = withEarlyStamps(0.05);
+  const EstimateLog log = runNavigator(config(), drive().initial, samples);
+  EXPECT_TRUE(
+      sameEstimates(runNavigator(config(), drive().initial, withLateWheels(0.9, Lag::kRandomInOrder, samples)), log));
+  const auto usesWheels = [](const LoggedEstimate& logged) { return logged.estimate.has_wheels; };
+  const auto used = std::count_if(log.begin(), log.end(), usesWheels);
+  const auto regularly = std::count_if(sequentialRun().begin(), sequentialRun().end(), usesWheels);
+  EXPECT_GT(used, regularly * 99 / 100);
+}
+
+/// Nobody waits for a wheel sample that is not yet due.
+TEST(Navigator, EstimatesComeWithTheImuSample) {
+  const NavigationSetup setup = config().navigation();
+  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
+  navigator.initialise(drive().initial);
+  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  const Nanoseconds learned = drive().initial.nav.stamp + fromSeconds(1.0);
+  int at_once = 0;
+  int samples = 0;
+  for (const DriveSample& sample : withLateWheels(0.01, Lag::kConstant)) {
+    if (!sample.is_imu) {
+      navigator.push(sample.wheels, ignore);
+      continue;
+    }
+    Nanoseconds newest = 0;
+    navigator.push(sample.imu, [&](const Estimate& estimate, const ErrorCovariance&) { newest = estimate.nav.stamp; });
+    if (sample.stamp() > learned) {
+      ++samples;
+      at_once += newest == sample.stamp() ? 1 : 0;
+    }
+  }
+  EXPECT_GT(at_once, samples * 3 / 4);  // four samples of five: with the fifth, wheels are due
 }
 
 TEST(Navigator, EarlyWheelsMakeNoDifference) {

@@ -2,9 +2,10 @@
 /// The error-state extended Kalman filter: owns the covariance, consumes mechanised steps in order, applies wheel,
 /// non-holonomic and zero updates at the stamps of the wheel samples, and tells the mechanisation what to correct.
 ///
-/// A step is processed only when it is certain which wheel samples lie inside it: when all of them are known up to one
-/// at or after its end, or when the IMU has gone on for `max_wait_s`. Where wheel samples are further apart than usual,
-/// one may still be on its way. What is computed therefore depends on the stamps, not on the order of arrival.
+/// A step is processed only when it is certain which wheel samples count inside it: when all of them are known up to
+/// one at or after its end, when it ends before the next one is due, or when the IMU has gone on for `max_wait_s`.
+/// Where wheel samples are further apart than usual, one may still be on its way. What is computed therefore depends on
+/// the stamps, not on the order of arrival.
 
 #include <cstdint>
 #include <functional>
@@ -79,6 +80,9 @@ class FilterEngine {
 
  private:
   bool isCertain(const InsStep& step) const;
+  bool isPast(Nanoseconds wheels) const;
+  bool hasWheelsUpTo(Nanoseconds stamp) const;
+  WheelMotion takeWheels();
   void beginWheels(const WheelMotion& wheels, Nanoseconds start);
   Vector3 propagate(const InsStep& step);
   Vector3 referenceVelocity(const InsStep& step) const;
