@@ -77,7 +77,7 @@ void FilterEngine::initialise(const InitialState& initial) {
   update_ = GatedUpdate(setup_.filter);
   tremor_ = Tremor(setup_.zero);
   wheel_monitor_.reset();
-  unseen_motion_.settle();
+  unseen_motion_.reset();
   slip_ground_ = GroundFactor(setup_.filter.ground);
   side_slip_ground_ = GroundFactor(setup_.filter.ground);
   if (initial.tremor_variance > 0.0) {
@@ -232,6 +232,7 @@ std::optional<Correction> FilterEngine::advance(const EstimateSink& sink) {
 }
 
 Vector3 FilterEngine::propagate(const InsStep& step) {
+  const NavigationState before = state_;
   const Vector3 v_start_b = referenceVelocity(step);
   const double duration_s = toSeconds(step.state.stamp - step.start);
   transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
@@ -246,6 +247,9 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   state_ = step.state;
   if (step.gap_s > 0.0) {
     unseen_motion_.begin(state_, step.gap_s, P_);
+    if (step.gap_s > setup_.filter.max_wheel_interval_s && !hasWheelsUpTo(step.start + fromSeconds(step.gap_s))) {
+      UnseenMotion::allowForStandstill(before, state_, P_);
+    }
     forgetSlipImpulse();
     average_.restart(0);
     vertical_average_.restart(0);
@@ -333,7 +337,7 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   if (at_rest && use_zupt_) {
     tremor_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
   }
-  const std::uint64_t zero_updates = update_.status(kZeroVelocity).accepted;
+  const ComponentStatus zero_velocity = update_.status(kZeroVelocity);
   const ComponentStatus forward = update_.status(kForwardSpeed);
   const ComponentStatus lateral = update_.status(kLateral);
   const bool grip = P_(kFastSlip, kFastSlip) < kKnownSlip * square(setup_.vehicle.fast_slip_std);
@@ -355,10 +359,11 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   estimate_.wheel_speed_used = update_.status(kForwardSpeed).accepted > forward.accepted;
   estimate_.slip_factor = slip_ground_.variance();
   estimate_.side_slip_factor = side_slip_ground_.variance();
-  if (update_.status(kZeroVelocity).accepted > zero_updates) {
-    unseen_motion_.settle();
+  const bool stands = update_.status(kZeroVelocity).accepted > zero_velocity.accepted;
+  if (update_.status(kZeroVelocity).measured() > zero_velocity.measured()) {
+    unseen_motion_.standstill(stands, P_);
   }
-  estimate_.stationary = at_rest && (!use_zupt_ || update_.status(kZeroVelocity).accepted > zero_updates);
+  estimate_.stationary = at_rest && (!use_zupt_ || stands);
   return corrected;
 }
 

@@ -1,4 +1,4 @@
-/// Is the covariance honest after the IMU has been silent on rough ground?
+/// Is the covariance honest after the IMU has been silent on rough ground, or the clock has jumped?
 
 #include <gtest/gtest.h>
 
@@ -19,16 +19,20 @@ constexpr double kShift_s = 0.7;
 /// Not below: a covariance that is far too large says nothing either.
 constexpr Range kAnees{0.15, 1.5};
 
-std::vector<DriveResult> drives(double gap_s) {
-  return runDrives(kDrives, [gap_s](int drive) {
+Disturbance imuGap(double duration_s) { return {0.0, duration_s, 0.0, 0.0}; }
+
+class ImuGaps : public ::testing::TestWithParam<Disturbance> {};
+
+std::vector<DriveResult> drives(const Disturbance& disturbance) {
+  return runDrives(kDrives, [&disturbance](int drive) {
     Config config;
     config.simulator.seed = 3000 + drive;
     config.simulator.drive.distance_m = kDistance_m;
-    return runDrive(config, "periodic:12:3", {kEarliest_s + kShift_s * drive, gap_s});
+    Disturbance this_one = disturbance;
+    this_one.begin_s = kEarliest_s + kShift_s * drive;
+    return runDrive(config, "periodic:12:3", this_one);
   });
 }
-
-class ImuGaps : public ::testing::TestWithParam<double> {};
 
 TEST_P(ImuGaps, TheCovarianceSaysWhatTheyCost) {
   double attitude = 0.0;
@@ -43,15 +47,28 @@ TEST_P(ImuGaps, TheCovarianceSaysWhatTheyCost) {
     final_m.push_back(result.final_error.segment<2>(kPosition).norm());
   }
   std::sort(final_m.begin(), final_m.end());
-  std::printf("gap of %.1f s: attitude %.2f position %.2f, coverage %.2f %%, final error %.2f m (worst %.2f m)\n",
-              GetParam(), attitude, position, coverage_pct, final_m[final_m.size() / 2], final_m.back());
+  const Disturbance& what = GetParam();
+  std::printf(
+      "IMU silent for %.1f s, wheels for %.1f s, clock ahead by %.1f s: attitude %.2f position %.2f, coverage %.2f %%, "
+      "final error %.2f m (worst %.2f m)\n",
+      what.imu_gap_s, what.wheel_gap_s, what.clock_jump_s, attitude, position, coverage_pct,
+      final_m[final_m.size() / 2], final_m.back());
   EXPECT_GE(position, kAnees.min);
   EXPECT_LE(position, kAnees.max);
   EXPECT_LE(attitude, kAnees.max);
   EXPECT_GE(coverage_pct, 98.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Durations, ImuGaps, ::testing::Values(0.1, 0.3, 1.0, 2.0, 5.0));
+INSTANTIATE_TEST_SUITE_P(Durations, ImuGaps,
+                         ::testing::Values(imuGap(0.1), imuGap(0.3), imuGap(1.0), imuGap(2.0), imuGap(5.0)));
+
+/// As when the computer hangs.
+INSTANTIATE_TEST_SUITE_P(WheelsAsWell, ImuGaps,
+                         ::testing::Values(Disturbance{0.0, 1.0, 1.0, 0.0}, Disturbance{0.0, 3.0, 3.0, 0.0}));
+
+/// The rover stays where it is, and nobody can tell from a gap.
+INSTANTIATE_TEST_SUITE_P(ClockJumps, ImuGaps,
+                         ::testing::Values(Disturbance{0.0, 0.0, 0.0, 1.0}, Disturbance{0.0, 0.0, 0.0, 3.0}));
 
 }  // namespace
 }  // namespace slipnav::test

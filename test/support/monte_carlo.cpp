@@ -72,15 +72,27 @@ class Judge {
   double count_ = 0.0;
 };
 
-void pushWithoutImu(const sim::Measurements& measurements, const WheelGeometry& geometry, Pipeline& pipeline) {
+/// What the sensors say `time_s` after the disturbance began.
+void pushDisturbed(const Disturbance& disturbance, double time_s, sim::Measurements measurements,
+                   const WheelGeometry& geometry, Pipeline& pipeline) {
+  const Nanoseconds shift = fromSeconds(disturbance.clock_jump_s);
+  measurements.imu.stamp += shift;
   if (measurements.wheel) {
+    measurements.wheel->stamp += shift;
+  }
+  if (time_s < disturbance.wheel_gap_s) {
+    measurements.wheel.reset();
+  }
+  if (time_s >= disturbance.imu_gap_s) {
+    pushMeasurements(measurements, geometry, pipeline);
+  } else if (measurements.wheel) {
     pipeline.push(toWheelMotion(geometry, *measurements.wheel));
   }
 }
 
 }  // namespace
 
-DriveResult runDrive(const Config& config, const std::string& policy, const ImuGap& gap) {
+DriveResult runDrive(const Config& config, const std::string& policy, const Disturbance& disturbance) {
   const Planet planet = Planet::byName(config.planet);
   const WheelGeometry geometry = config.wheelGeometry();
   Judge judge(planet, config.imu.mount.position_b());
@@ -88,20 +100,21 @@ DriveResult runDrive(const Config& config, const std::string& policy, const ImuG
                     [&judge](const Estimate& estimate, const ErrorCovariance& P) { judge.compare(estimate, P); });
   const std::unique_ptr<StopPolicy> stops = makeStopPolicy(policy, config.stop);
   Nanoseconds begin = 0;
-  simulateDrive(config.simulator, planet, *stops,
-                [&](const sim::Measurements& measurements, const sim::TruthState& truth) {
-                  judge.addTruth(truth);
-                  if (config.initialization.source == "truth" && !pipeline.initial() && truth.distance_m > 12.0) {
-                    pipeline.setTruth(toNavState(truth, planet, config.imu.mount.position_b()), true);
-                  }
-                  begin = begin == 0 && pipeline.initial() ? truth.stamp : begin;
-                  const double since_gap_s = toSeconds(truth.stamp - begin) - gap.begin_s;
-                  if (begin != 0 && since_gap_s >= 0.0 && since_gap_s < gap.duration_s) {
-                    pushWithoutImu(measurements, geometry, pipeline);
-                  } else {
-                    pushMeasurements(measurements, geometry, pipeline);
-                  }
-                });
+  simulateDrive(config.simulator, planet, *stops, [&](const sim::Measurements& measurements, sim::TruthState truth) {
+    begin = begin == 0 && pipeline.initial() ? truth.stamp : begin;
+    const double time_s = toSeconds(truth.stamp - begin) - disturbance.begin_s;
+    const bool is_disturbed = begin != 0 && time_s >= 0.0;
+    truth.stamp += is_disturbed ? fromSeconds(disturbance.clock_jump_s) : 0;
+    judge.addTruth(truth);
+    if (config.initialization.source == "truth" && !pipeline.initial() && truth.distance_m > 12.0) {
+      pipeline.setTruth(toNavState(truth, planet, config.imu.mount.position_b()), true);
+    }
+    if (is_disturbed) {
+      pushDisturbed(disturbance, time_s, measurements, geometry, pipeline);
+    } else {
+      pushMeasurements(measurements, geometry, pipeline);
+    }
+  });
   if (!pipeline.initial()) {
     throw std::runtime_error("not initialised: " + pipeline.initializer().progress());
   }

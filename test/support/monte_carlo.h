@@ -30,14 +30,16 @@ struct DriveResult {
   ErrorVector final_sigma = ErrorVector::Zero();
 };
 
-/// When the IMU of a drive is silent.
-struct ImuGap {
-  double begin_s = 0.0;  ///< after the initialisation
-  double duration_s = 0.0;
+/// What happens to the sensors during a drive.
+struct Disturbance {
+  double begin_s = 0.0;       ///< after the initialisation
+  double imu_gap_s = 0.0;     ///< the IMU is silent for so long
+  double wheel_gap_s = 0.0;   ///< the wheels are silent for so long
+  double clock_jump_s = 0.0;  ///< all stamps are later by this from then on
 };
 
 /// One drive of config.simulator under the policy; truth is the simulator's own state.
-DriveResult runDrive(const Config& config, const std::string& policy, const ImuGap& gap = {});
+DriveResult runDrive(const Config& config, const std::string& policy, const Disturbance& disturbance = {});
 
 /// Drives 1 to `count`, two at a time.
 std::vector<DriveResult> runDrives(int count, const std::function<DriveResult(int drive)>& run);

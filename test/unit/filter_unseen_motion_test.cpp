@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "slipnav/math/rotation.h"
+
 namespace slipnav {
 namespace {
 
@@ -56,15 +58,42 @@ TEST_F(UnseenMotionTest, SoonAfterAGapAContradictionCastsDoubtOnTiltAndVelocity)
   EXPECT_TRUE(P_.isZero());
 }
 
-TEST_F(UnseenMotionTest, WithoutAGapOrAfterAStandstillNothingIsDoubted) {
+TEST_F(UnseenMotionTest, AStandstillCastsDoubtUntilItHasBeenAgreedToForAWhile) {
+  UnseenMotion unseen(params_);
+  unseen.standstill(false, P_);
+  EXPECT_TRUE(P_.isZero());
+  unseen.begin(state_, 1.0, P_);
+  unseen.standstill(true, P_);
+  P_.setZero();
+  unseen.standstill(false, P_);
+  EXPECT_NEAR(sigma(kAttitude), degToRad(2.0), 1e-12);
+  EXPECT_NEAR(sigma(kVelocity), 0.5, 1e-12);
+  for (int i = 0; i < 10; ++i) {
+    unseen.standstill(true, P_);
+  }
+  P_.setZero();
+  unseen.standstill(false, P_);
+  unseen.doubt(state_.stamp, P_);
+  EXPECT_TRUE(P_.isZero());
+}
+
+TEST_F(UnseenMotionTest, WithoutAGapNothingIsDoubted) {
   UnseenMotion unseen(params_);
   unseen.doubt(state_.stamp, P_);
   EXPECT_TRUE(P_.isZero());
-  unseen.begin(state_, 1.0, P_);
-  unseen.settle();
-  P_.setZero();
-  unseen.doubt(state_.stamp, P_);
-  EXPECT_TRUE(P_.isZero());
+}
+
+TEST_F(UnseenMotionTest, WayAndTurnAreInDoubtWhenNothingNeedHaveMoved) {
+  NavigationState after = state_;
+  after.stamp += fromSeconds(2.0);
+  state_.v_eb_n = after.v_eb_n = Vector3(0.6, -0.8, 0.0);
+  after.q_b_to_n = q_b_to_n_fromEuler(0.0, 0.0, 0.1);
+  UnseenMotion::allowForStandstill(state_, after, P_);
+  EXPECT_NEAR(sigma(kPosition), 1.2, 1e-12);
+  EXPECT_NEAR(sigma(kPosition + 1), 1.6, 1e-12);
+  EXPECT_NEAR(P_(kPosition, kPosition + 1), -1.2 * 1.6, 1e-12);
+  EXPECT_NEAR(sigma(kAttitude + 2), 0.1, 1e-12);
+  EXPECT_EQ(sigma(kAttitude), 0.0);
 }
 
 }  // namespace
