@@ -16,9 +16,13 @@ void SampleMerger::push(const Sample& sample) {
   std::visit(
       [this](const auto& s) {
         using Kind = std::decay_t<decltype(s)>;
-        std::get<JumpFilter<Kind>>(filters_).push(s, [this](const Kind& passed) { insert(passed); });
+        std::get<JumpFilter<Kind>>(filters_).push(s, [this](const Kind& passed) { sort(passed); });
       },
       sample);
+}
+
+void SampleMerger::sort(const ImuSample& sample) {
+  imu_sorter_.push(sample, [this](const ImuSample& passed) { insert(passed); });
 }
 
 void SampleMerger::insert(const Sample& sample) {

@@ -13,6 +13,7 @@
 
 #include "slipnav/ins/ins_engine.h"
 #include "slipnav/navigator/health.h"
+#include "slipnav/navigator/imu_sorter.h"
 #include "slipnav/navigator/jump_filter.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
@@ -52,7 +53,9 @@ class InsNodelet : public CoreNodelet {
   void advertise(const Config&) override { steps_publisher_ = publisher<InsSteps>(kInsStepsTopic); }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
-    jumps_.push(toImuSample(*message, *mount_), [this](const ImuSample& sample) { use(sample); });
+    jumps_.push(toImuSample(*message, *mount_), [this](const ImuSample& passed) {
+      sorter_.push(passed, [this](const ImuSample& sample) { use(sample); });
+    });
     startIfDue();
     mechanise();
   }
@@ -182,6 +185,7 @@ class InsNodelet : public CoreNodelet {
 
   std::optional<ImuMount> mount_;
   JumpFilter<ImuSample> jumps_;
+  ImuSorter sorter_;
   std::optional<InsEngine> engine_;
   std::optional<HealthMonitor> health_;
   StartState::ConstPtr start_;  ///< not yet used

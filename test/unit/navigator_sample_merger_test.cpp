@@ -112,7 +112,14 @@ TEST_F(SampleMergerTest, SilenceIsJudgedByTrustedStampsAlone) {
   EXPECT_EQ(text, "i2000");
 }
 
-TEST_F(SampleMergerTest, KeepsTheOrderWithinTheImu) {
+TEST_F(SampleMergerTest, ImuSamplesThatOvertakeEachOtherAreBroughtIntoOrderOnceTheirIntervalIsKnown) {
+  for (const int ms : {2000, 2020, 2040, 2060, 2080, 2100, 2140, 2120, 2160}) {
+    merger_.push(imuAt(ms));
+  }
+  EXPECT_EQ(flush(), "i2000 i2020 i2040 i2060 i2080 i2100 i2120 i2140 i2160 ");
+}
+
+TEST_F(SampleMergerTest, UntilThenTheImuKeepsItsOrder) {
   merger_.push(imuAt(2020));
   merger_.push(imuAt(2000));
   merger_.push(imuAt(2040));

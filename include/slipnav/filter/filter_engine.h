@@ -12,13 +12,13 @@
 #include <optional>
 
 #include "slipnav/container/ring_queue.h"
+#include "slipnav/filter/cadence.h"
 #include "slipnav/filter/error_dynamics.h"
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/filter/gated_update.h"
 #include "slipnav/filter/mean_motion.h"
 #include "slipnav/filter/unseen_motion.h"
-#include "slipnav/filter/wheel_cadence.h"
 #include "slipnav/ins/ins_engine.h"
 #include "slipnav/measurement/position_fix.h"
 #include "slipnav/slip/stationary_detector.h"
@@ -105,7 +105,7 @@ class FilterEngine {
   GatedUpdate update_;
   UnseenMotion unseen_motion_;
   WheelMonitor wheel_monitor_;
-  WheelCadence cadence_;  ///< of the samples that were processed
+  Cadence cadence_;  ///< of the samples that were processed
   Tremor tremor_;
   GroundFactor slip_ground_;
   GroundFactor side_slip_ground_;

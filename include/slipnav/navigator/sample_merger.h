@@ -2,9 +2,9 @@
 /// Brings the samples of several sensors into one order by stamp, whatever the order in which they come.
 ///
 /// A sample is let go when the IMU has gone on by the wait since; what comes later than that is out of order, and those
-/// who get it refuse it. IMU samples stay in their order of arrival among themselves. A sensor whose stamps go back by
-/// a second or more has started anew: what follows belongs after everything of all sensors before their own such step.
-/// Single samples with a wrong stamp are left out (JumpFilter).
+/// who get it refuse it. IMU samples are put into order by themselves before (ImuSorter). A sensor whose stamps go back
+/// by a second or more has started anew: what follows belongs after everything of all sensors before their own such
+/// step. Single samples with a wrong stamp are left out (JumpFilter).
 
 #include <array>
 #include <cstdint>
@@ -16,6 +16,7 @@
 
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/measurement/position_fix.h"
+#include "slipnav/navigator/imu_sorter.h"
 #include "slipnav/navigator/jump_filter.h"
 
 namespace slipnav {
@@ -69,6 +70,8 @@ class SampleMerger {
     Instant newest;
   };
 
+  void sort(const ImuSample& sample);
+  void sort(const Sample& sample) { insert(sample); }
   void insert(const Sample& sample);
   void advance(const Instant& trusted, const Sink& sink);
   Stream* earliest();
@@ -76,6 +79,7 @@ class SampleMerger {
 
   Nanoseconds max_wait_;
   std::tuple<JumpFilter<ImuSample>, JumpFilter<WheelMotion>, JumpFilter<PositionFix>> filters_;
+  ImuSorter imu_sorter_;
   std::array<Stream, std::variant_size_v<Sample>> streams_;
   Instant newest_imu_;
 };

@@ -1,6 +1,6 @@
 #pragma once
-/// How regularly wheel samples come, and hence where one is missing, since it may still be on its way, and for how long
-/// after one none is due.
+/// How regularly samples of one sensor come, and hence where one is missing, since it may still be on its way, and for
+/// how long after one none is due.
 ///
 /// Learned from the samples in the order in which they are processed, so that it depends on stamps alone.
 
@@ -10,11 +10,11 @@
 
 namespace slipnav {
 
-/// Running mean and running minimum of the interval between wheel samples.
-class WheelCadence {
+/// Running mean and running minimum of the interval between samples.
+class Cadence {
  public:
   /// @param longest_s a longer interval is an outage, from which nothing is learned
-  explicit WheelCadence(double longest_s) : longest_s_(longest_s) {}
+  explicit Cadence(double longest_s) : longest_s_(longest_s) {}
 
   /// Nothing is known of what comes after `stamp`.
   void restart(Nanoseconds stamp);
@@ -24,6 +24,9 @@ class WheelCadence {
 
   /// Stamp of the newest sample, or of the restart.
   Nanoseconds newest() const { return newest_; }
+
+  /// Whether the usual interval is known.
+  bool isLearned() const;
 
   /// Whether a sample may be missing between two stamps; always true until the usual interval is known.
   bool isHole(Nanoseconds from, Nanoseconds to) const;

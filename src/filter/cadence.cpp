@@ -1,4 +1,4 @@
-#include "slipnav/filter/wheel_cadence.h"
+#include "slipnav/filter/cadence.h"
 
 namespace slipnav {
 namespace {
@@ -10,14 +10,14 @@ constexpr double kQuietFraction = 0.9;  // of the shortest interval
 
 }  // namespace
 
-void WheelCadence::restart(Nanoseconds stamp) {
+void Cadence::restart(Nanoseconds stamp) {
   newest_ = stamp;
   intervals_ = 0;
   usual_s_ = 0.0;
   shortest_s_ = longest_s_;
 }
 
-void WheelCadence::add(Nanoseconds stamp) {
+void Cadence::add(Nanoseconds stamp) {
   const double interval_s = toSeconds(stamp - newest_);
   newest_ = stamp;
   if (interval_s > longest_s_) {
@@ -28,12 +28,14 @@ void WheelCadence::add(Nanoseconds stamp) {
   shortest_s_ = std::min(interval_s, shortest_s_ + kGain * (interval_s - shortest_s_));
 }
 
-bool WheelCadence::isHole(Nanoseconds from, Nanoseconds to) const {
-  return intervals_ < kIntervalsToLearn || toSeconds(to - from) > kHoleFactor * usual_s_;
+bool Cadence::isLearned() const { return intervals_ >= kIntervalsToLearn; }
+
+bool Cadence::isHole(Nanoseconds from, Nanoseconds to) const {
+  return !isLearned() || toSeconds(to - from) > kHoleFactor * usual_s_;
 }
 
-Nanoseconds WheelCadence::quietUntil() const {
-  return intervals_ < kIntervalsToLearn ? newest_ : newest_ + fromSeconds(kQuietFraction * shortest_s_);
+Nanoseconds Cadence::quietUntil() const {
+  return isLearned() ? newest_ + fromSeconds(kQuietFraction * shortest_s_) : newest_;
 }
 
 }  // namespace slipnav

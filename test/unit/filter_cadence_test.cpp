@@ -1,4 +1,4 @@
-#include "slipnav/filter/wheel_cadence.h"
+#include "slipnav/filter/cadence.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@ namespace {
 
 constexpr Nanoseconds kMillisecond = 1'000'000;
 
-WheelCadence regular(int intervals, Nanoseconds interval_ms) {
-  WheelCadence cadence(0.5);
+Cadence regular(int intervals, Nanoseconds interval_ms) {
+  Cadence cadence(0.5);
   cadence.restart(1000 * kMillisecond);
   for (int i = 1; i <= intervals; ++i) {
     cadence.add((1000 + i * interval_ms) * kMillisecond);
@@ -16,23 +16,23 @@ WheelCadence regular(int intervals, Nanoseconds interval_ms) {
   return cadence;
 }
 
-bool isHole(const WheelCadence& cadence, Nanoseconds length_ms) {
+bool isHole(const Cadence& cadence, Nanoseconds length_ms) {
   return cadence.isHole(cadence.newest(), cadence.newest() + length_ms * kMillisecond);
 }
 
-TEST(WheelCadence, TrustsNothingUntilItKnowsTheUsualInterval) {
+TEST(Cadence, TrustsNothingUntilItKnowsTheUsualInterval) {
   EXPECT_TRUE(isHole(regular(3, 100), 100));
   EXPECT_FALSE(isHole(regular(4, 100), 100));
 }
 
-TEST(WheelCadence, HalfAnIntervalMoreIsAHole) {
-  const WheelCadence cadence = regular(20, 100);
+TEST(Cadence, HalfAnIntervalMoreIsAHole) {
+  const Cadence cadence = regular(20, 100);
   EXPECT_FALSE(isHole(cadence, 149));
   EXPECT_TRUE(isHole(cadence, 151));
 }
 
-TEST(WheelCadence, FollowsASensorThatChangesItsRate) {
-  WheelCadence cadence = regular(20, 100);
+TEST(Cadence, FollowsASensorThatChangesItsRate) {
+  Cadence cadence = regular(20, 100);
   EXPECT_TRUE(isHole(cadence, 200));
   for (int i = 0; i < 20; ++i) {
     cadence.add(cadence.newest() + 200 * kMillisecond);
@@ -40,30 +40,30 @@ TEST(WheelCadence, FollowsASensorThatChangesItsRate) {
   EXPECT_FALSE(isHole(cadence, 200));
 }
 
-TEST(WheelCadence, LearnsNothingFromAnOutage) {
-  WheelCadence cadence = regular(4, 100);
+TEST(Cadence, LearnsNothingFromAnOutage) {
+  Cadence cadence = regular(4, 100);
   cadence.add(cadence.newest() + 30'000 * kMillisecond);
   EXPECT_TRUE(isHole(cadence, 151));
 }
 
-TEST(WheelCadence, ARestartForgets) {
-  WheelCadence cadence = regular(20, 100);
+TEST(Cadence, ARestartForgets) {
+  Cadence cadence = regular(20, 100);
   cadence.restart(5000 * kMillisecond);
   EXPECT_EQ(cadence.newest(), 5000 * kMillisecond);
   EXPECT_TRUE(isHole(cadence, 100));
 }
 
 }  // namespace
-TEST(WheelCadence, NoneIsDueSoonAfterTheLast) {
+TEST(Cadence, NoneIsDueSoonAfterTheLast) {
   EXPECT_EQ(regular(3, 100).quietUntil(), regular(3, 100).newest());
-  const WheelCadence cadence = regular(20, 100);
+  const Cadence cadence = regular(20, 100);
   EXPECT_EQ(cadence.quietUntil(), cadence.newest() + 90 * kMillisecond);
   EXPECT_EQ(cadence.due(cadence.newest() + 50 * kMillisecond), cadence.quietUntil());
   EXPECT_EQ(cadence.due(cadence.newest() + 97 * kMillisecond), cadence.newest() + 97 * kMillisecond);
 }
 
-TEST(WheelCadence, OneThatComesEarlyIsBelievedAtOnceAndForgottenSlowly) {
-  WheelCadence cadence = regular(20, 100);
+TEST(Cadence, OneThatComesEarlyIsBelievedAtOnceAndForgottenSlowly) {
+  Cadence cadence = regular(20, 100);
   cadence.add(cadence.newest() + 50 * kMillisecond);
   EXPECT_EQ(cadence.quietUntil(), cadence.newest() + 45 * kMillisecond);
   cadence.add(cadence.newest() + 100 * kMillisecond);
