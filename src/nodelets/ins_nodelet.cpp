@@ -175,6 +175,7 @@ class InsNodelet : public CoreNodelet {
     status.add("gaps", gaps_);
     status.add("rejected samples", rejected_);
     status.add("samples with a wrong stamp", jumps_.leftOut());
+    status.add("samples put back into order", sorter_.overtaken());
     status.add("restarts", session_);
     if (health_) {
       report(*health_, engine_->newestStamp(), status);

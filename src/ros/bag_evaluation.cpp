@@ -34,9 +34,13 @@ void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluati
   };
   const auto take = [&merger, &pass, &health](const Sample& sample) {
     const std::uint64_t left_out = merger.leftOut();
+    const std::uint64_t overtaken = merger.overtaken();
     merger.push(sample);
     if (merger.leftOut() > left_out) {
       health.note("wrong stamp", merger.newestImuStamp());
+    }
+    if (merger.overtaken() > overtaken) {
+      health.note("IMU samples out of order", merger.newestImuStamp());
     }
     merger.advance(pass);
   };

@@ -47,6 +47,7 @@ TEST_F(ImuSorterTest, OneThatWasOvertakenTakesItsPlace) {
   EXPECT_TRUE(passed_.empty());
   push(10);
   EXPECT_EQ(passed_, Numbers({10, 11}));
+  EXPECT_EQ(sorter_.overtaken(), 1U);
   push(14);
   push(13);
   push(12);

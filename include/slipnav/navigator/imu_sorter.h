@@ -4,6 +4,8 @@
 /// Where a sample seems to be missing, those after it wait until it has come, or until two of them wait: no transport
 /// that loses its order does so by much. So a lost sample delays an estimate by two intervals, and nothing else waits.
 
+#include <cstdint>
+
 #include "slipnav/container/ring_queue.h"
 #include "slipnav/filter/cadence.h"
 #include "slipnav/ins/imu_screen.h"
@@ -25,9 +27,13 @@ class ImuSorter {
       sink(sample);
       return;
     }
+    overtaken_ += !waiting_.empty() && sample.stamp < waiting_.back().stamp ? 1 : 0;
     waiting_.insertSorted(sample, [](const ImuSample& a, const ImuSample& b) { return a.stamp < b.stamp; });
     release(kPlaces, sink);
   }
+
+  /// How many have been put back into order.
+  std::uint64_t overtaken() const { return overtaken_; }
 
  private:
   bool isAfterHole(const ImuSample& sample) const {
@@ -50,6 +56,7 @@ class ImuSorter {
 
   Cadence cadence_{kLongestInterval_s};
   RingQueue<ImuSample> waiting_;
+  std::uint64_t overtaken_ = 0;
 };
 
 }  // namespace slipnav

@@ -52,6 +52,9 @@ class SampleMerger {
   /// Samples that were left out for their stamps, of all sensors.
   std::uint64_t leftOut() const;
 
+  /// IMU samples that were put back into order.
+  std::uint64_t overtaken() const { return imu_sorter_.overtaken(); }
+
  private:
   /// Stamps are comparable within a session, sessions follow each other.
   struct Instant {
