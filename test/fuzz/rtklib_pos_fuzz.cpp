@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::istringstream text(slipnav::fuzz::toText(data, size));
   try {
     slipnav::readRtklibPos(text, "input");
-  } catch (const std::invalid_argument&) {
+  } catch (const std::runtime_error&) {  // names the line that is wrong
   }
   return 0;
 }

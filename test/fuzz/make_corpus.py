@@ -1,0 +1,200 @@
+#!/usr/bin/python3
+"""Writes the binary inputs that fuzzing begins with: recordings, and messages as test/fuzz/message_reader.h reads them.
+
+Needs the workspace: source build/devel/setup.bash, then test/fuzz/make_corpus.py.
+"""
+
+import io
+import math
+import pathlib
+
+import geometry_msgs.msg
+import nav_msgs.msg
+import rosbag
+import rospy
+import sensor_msgs.msg
+import slipnav.msg
+import slipnav.srv
+
+CORPUS = pathlib.Path(__file__).resolve().parent / "corpus"
+START_S = 102.0
+WHEELS = ("front_left_wheel", "front_right_wheel", "back_left_wheel", "back_right_wheel")
+STATES = 22
+
+
+def stamped(message, time_s):
+    message.header.stamp = rospy.Time.from_sec(time_s)
+    return message
+
+
+def imu(time_s, forward_mps2=0.0):
+    message = stamped(sensor_msgs.msg.Imu(), time_s)
+    message.linear_acceleration.x = forward_mps2 + 1e-3 * math.sin(100.0 * time_s)
+    message.linear_acceleration.z = 9.8
+    message.angular_velocity.z = 1e-4 * math.cos(100.0 * time_s)
+    return message
+
+
+def joints(time_s, speed_radps):
+    message = stamped(sensor_msgs.msg.JointState(), time_s)
+    message.name = list(WHEELS)
+    message.velocity = [speed_radps] * len(WHEELS)
+    message.position = [speed_radps * time_s] * len(WHEELS)
+    return message
+
+
+def odometry(time_s, speed_mps):
+    message = stamped(nav_msgs.msg.Odometry(), time_s)
+    message.pose.pose.orientation.w = 1.0
+    message.twist.twist.linear.x = speed_mps
+    return message
+
+
+def fix(time_s):
+    message = stamped(sensor_msgs.msg.NavSatFix(), time_s)
+    message.latitude, message.longitude, message.altitude = 39.65, -79.9, 300.0
+    message.position_covariance_type = message.COVARIANCE_TYPE_KNOWN
+    message.position_covariance = [1e-4, 0.0, 0.0, 0.0, 1e-4, 0.0, 0.0, 0.0, 4e-4]
+    return message
+
+
+def pose(time_s):
+    message = stamped(geometry_msgs.msg.PoseStamped(), time_s)
+    message.pose.orientation.w = 1.0
+    return message
+
+
+def inertial_state(time_s):
+    message = slipnav.msg.InertialState()
+    message.stamp = rospy.Time.from_sec(time_s)
+    message.q_b_to_n = [1.0, 0.0, 0.0, 0.0]
+    message.latitude_rad, message.longitude_rad, message.height_m = 0.69, -1.39, 300.0
+    message.v_eb_n = [0.8, 0.0, 0.0]
+    return message
+
+
+def covariance():
+    return [1e-3 if row == column else 0.0 for row in range(STATES) for column in range(STATES)]
+
+
+def start_state():
+    message = slipnav.msg.StartState(start=1, known=True, state=inertial_state(START_S), covariance=covariance())
+    message.origin_latitude_rad, message.origin_longitude_rad, message.origin_height_m = 0.69, -1.39, 300.0
+    return message
+
+
+def steps(first, count):
+    message = slipnav.msg.InsSteps(start=1)
+    for sequence in range(first, first + count):
+        interval = slipnav.msg.InsInterval(sequence=sequence, f_ib_b=[0.0, 0.0, -9.8])
+        interval.start = rospy.Time.from_sec(START_S + 0.02 * sequence)
+        interval.state = inertial_state(START_S + 0.02 * (sequence + 1))
+        message.steps.append(interval)
+    return message
+
+
+def forecast_input(time_s, slip):
+    message = slipnav.msg.ForecastInput(state=inertial_state(time_s), covariance=covariance())
+    message.slip_factor = message.side_slip_factor = 1.0
+    message.wheel_speed_used = True
+    message.wheel_stamp = message.state.stamp
+    message.wheel_speed_mps = 0.8 / (1.0 - slip)
+    message.duration_s = 0.1
+    message.v_eb_b = [0.8, 0.0, 0.0]
+    return message
+
+
+def nav_state(time_s):
+    message = stamped(slipnav.msg.NavState(), time_s)
+    message.covariance = [1e-6 if row == column else 0.0 for row in range(15) for column in range(15)]
+    message.orientation.w = 1.0
+    return message
+
+
+def slip(time_s, speed_mps):
+    message = stamped(slipnav.msg.Slip(), time_s)
+    message.duration_s, message.forward_speed_mps = 0.1, speed_mps
+    message.names, message.ratio, message.wheel_speed_mps = list(WHEELS), [0.0] * 4, [speed_mps] * 4
+    return message
+
+
+def twist(speed_mps):
+    message = geometry_msgs.msg.Twist()
+    message.linear.x = speed_mps
+    return message
+
+
+def write_messages(path, header, messages):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    buffer = io.BytesIO(header)
+    buffer.seek(0, io.SEEK_END)
+    for kind, message in messages:
+        buffer.write(bytes([kind]))
+        message.serialize(buffer)
+    path.write_bytes(buffer.getvalue())
+
+
+def write_sensor_messages():
+    folder = CORPUS / "messages"
+    running, resting = b"\0", b"\1"
+    rest = [(0, imu(START_S + 0.1 * i)) for i in range(8)]
+    write_messages(folder / "imu_at_rest", resting, rest)
+    drive = []
+    for i in range(4):
+        time_s = START_S + 0.1 * i
+        drive += [(0, imu(time_s, 0.5)), (1, joints(time_s, 7.0))]
+    write_messages(folder / "imu_and_joints", running, drive)
+    write_messages(folder / "imu_and_odometry", running,
+                   [part for i in range(3) for part in ((0, imu(START_S + 0.1 * i)), (2, odometry(START_S + 0.1 * i, 0.5)))])
+    write_messages(folder / "fix_and_pose", running, [(3, fix(START_S)), (4, pose(START_S)), (0, imu(START_S))])
+    for kind, name, message in ((0, "imu", imu(START_S)), (1, "joints", joints(START_S, 1.0)),
+                                (2, "odometry", odometry(START_S, 1.0)), (3, "fix", fix(START_S)),
+                                (4, "pose", pose(START_S))):
+        write_messages(folder / name, running, [(kind, message)])
+
+
+def write_internal_messages():
+    folder = CORPUS / "internal"
+    write_messages(folder / "filter", b"", [(0, start_state()), (1, steps(0, 5)), (1, steps(5, 3))])
+    write_messages(folder / "forecast", b"",
+                   [(3, forecast_input(START_S + 0.1 * i, 0.05 * math.sin(i))) for i in range(8)])
+    place = slipnav.srv.SetStateRequest(position_std_m=0.1, has_heading=True, heading_deg=10.0, heading_std_deg=1.0)
+    correction = slipnav.msg.FilterCorrection(start=1, corrects=True, epoch=1, sequence=2,
+                                              state=inertial_state(START_S + 0.06))
+    write_messages(folder / "corrections", b"",
+                   [(0, start_state()), (1, steps(0, 60)), (4, place), (2, correction), (1, steps(3, 2))])
+    stop = stamped(slipnav.msg.ErrorForecast(), START_S + 0.1)
+    stop.time_to_stop_s = 0.1
+    supervisor = []
+    for i in range(12):
+        time_s = START_S + 0.1 * i
+        supervisor += [(5, slip(time_s, 0.8)), (6, nav_state(time_s)), (8, twist(0.8))]
+        if i == 1:
+            supervisor.append((7, stop))
+    write_messages(folder / "supervisor", b"", supervisor)
+
+
+def write_bag(name, messages):
+    path = CORPUS / "bag" / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with rosbag.Bag(str(path), "w", chunk_threshold=1000) as bag:
+        for topic, message in messages:
+            # A definition of each type would be most of the file, and nothing reads it.
+            header = {"topic": topic, "type": message._type, "md5sum": message._md5sum, "message_definition": " "}
+            bag.write(topic, message, message.header.stamp, connection_header=header)
+
+
+def write_bags():
+    times_s = [START_S + 0.1 * i for i in range(14)]
+    write_bag("joints.bag", [part for t in times_s for part in (("imu/data", imu(t, 0.2)), ("joint_states", joints(t, 1.0)))]
+              + [("truth/fix", fix(times_s[-1])), ("gps/fix", fix(times_s[-1]))])
+    write_bag("odometry.bag", [part for t in times_s
+                               for part in (("imu/data", imu(t)), ("wheel_odometry", odometry(t, 0.1)))]
+              + [("truth/odometry", odometry(times_s[-1], 0.1))])
+    write_bag("imu_only.bag", [("imu/data", imu(times_s[0]))])
+
+
+if __name__ == "__main__":
+    write_sensor_messages()
+    write_internal_messages()
+    write_bags()
