@@ -166,6 +166,14 @@ std::optional<Nanoseconds> Initializer::firstImuStampFrom(Nanoseconds stamp) con
   return it == imu_.end() ? std::nullopt : std::optional<Nanoseconds>(it->stamp);
 }
 
+std::optional<Nanoseconds> Initializer::windowBeginFrom(Nanoseconds stamp) const {
+  const Nanoseconds window = fromSeconds(params_.levelling_window_s);
+  const auto it = std::adjacent_find(imu_.begin(), imu_.end(), [=](const ImuSample& sample, const ImuSample& next) {
+    return sample.stamp >= stamp && next.stamp - sample.stamp <= window;
+  });
+  return it == imu_.end() ? std::nullopt : std::optional<Nanoseconds>(it->stamp);
+}
+
 std::optional<InitialState> Initializer::fromTruth() const {
   if (!truth_) {
     return std::nullopt;
@@ -185,9 +193,9 @@ std::optional<InitialState> Initializer::fromWindow() const {
   if (imu_.size() < 2 || (from_truth && !truth_)) {
     return std::nullopt;
   }
-  const std::optional<Nanoseconds> begin = firstImuStampFrom(from_truth        ? truth_->stamp
-                                                             : wheels_.empty() ? imu_.front().stamp
-                                                                               : wheels_.front().stamp);
+  const std::optional<Nanoseconds> begin = windowBeginFrom(from_truth        ? truth_->stamp
+                                                           : wheels_.empty() ? imu_.front().stamp
+                                                                             : wheels_.front().stamp);
   if (!begin || toSeconds(imu_.back().stamp - *begin) < params_.levelling_window_s) {
     return std::nullopt;
   }
@@ -211,7 +219,7 @@ std::optional<InitialState> Initializer::fromDrive() const {
   if (imu_.size() < 2 || fixes_.empty() || (rested && !rest_.over)) {
     return std::nullopt;
   }
-  const std::optional<Nanoseconds> begin = firstImuStampFrom(rested ? rest_.begin : fixes_.front().stamp);
+  const std::optional<Nanoseconds> begin = windowBeginFrom(rested ? rest_.begin : fixes_.front().stamp);
   const std::optional<PositionFix> start = begin ? startFix(*begin) : std::nullopt;
   const std::optional<PositionFix> end = start ? endFix(*start) : std::nullopt;
   const std::optional<Nanoseconds> until = end ? firstImuStampFrom(end->stamp) : std::nullopt;

@@ -201,5 +201,34 @@ TEST(Initializer, IsNotMisledByBadSamples) {
   EXPECT_FALSE(initializer.result());
 }
 
+/// A gap longer than the levelling window leaves one sample in it.
+TEST(Initializer, LevelsAfterAGapOfTheImu) {
+  for (const std::string source : {"given", "gnss"}) {
+    Config config;
+    config.initialization.source = source;
+    config.initialization.levelling_window_s = 2.0;
+    const NavigationSetup setup = config.navigation();
+    Initializer initializer(Planet::byName("earth"), setup.initialization, setup.imu_input, setup.filter);
+    const Nanoseconds after_gap = fromSeconds(20.0);
+    const auto push = [&](Nanoseconds stamp) {
+      const double t_s = toSeconds(stamp);
+      initializer.push(PositionFix{stamp, {0.7 + 1e-6 * t_s, 0.1, 50.0}, Vector3::Constant(1e-4)});
+      WheelMotion wheels;
+      wheels.stamp = stamp;
+      wheels.motion.forward_mps = 6.0;
+      initializer.push(wheels);
+      initializer.push(ImuSample{stamp, Vector3(0.0, 0.0, -9.8), Vector3::Zero()});
+    };
+    push(0);
+    std::optional<InitialState> initial;
+    for (int i = 0; i < 500 && !initial; ++i) {
+      push(after_gap + fromSeconds(0.02 * i));
+      initial = initializer.result();
+    }
+    ASSERT_TRUE(initial) << source;
+    EXPECT_GE(initial->nav.stamp, after_gap) << source;
+  }
+}
+
 }  // namespace
 }  // namespace slipnav::test

@@ -80,6 +80,8 @@ class Initializer {
   std::optional<InitialState> fromWindow() const;
   std::optional<InitialState> fromTruth() const;
   std::optional<Nanoseconds> firstImuStampFrom(Nanoseconds stamp) const;
+  /// Likewise, of a sample that another one follows within the levelling window.
+  std::optional<Nanoseconds> windowBeginFrom(Nanoseconds stamp) const;
   std::optional<PositionFix> startFix(Nanoseconds begin) const;
   std::optional<PositionFix> endFix(const PositionFix& start) const;
   double headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const;
