@@ -56,27 +56,27 @@ GroundParams unpaved() {
 
 GroundParams gravel() {
   GroundParams g;
-  g.relief.slope_deg = 2.0;
-  g.relief.roughness_deg = 1.0;
+  g.relief.slope_deg = 2.5;
+  g.relief.roughness_deg = 1.7;
   g.slip.mean = 0.045;
   g.slip.mean_spread = 0.2;
   g.slip.climb = 0.3;
   g.slip.sinkage = 0.6;
-  g.slip.fast = 0.045;
-  g.slip.slow = 0.015;
+  g.slip.fast = 0.03;
+  g.slip.slow = 0.01;
   g.slip.wheel_scatter = 0.012;
-  g.slip.impulses_per_m = 0.08;
+  g.slip.impulses_per_m = 0.05;
   g.slip.impulse_min = 0.1;
-  g.slip.impulse_max = 0.5;
-  g.slip.side_slip_deg = 0.7;
-  g.slip.side_slip_per_slope = 0.12;
-  g.slip.sway_m = 0.001;
-  g.slip.heave_m = 0.0012;
+  g.slip.impulse_max = 0.45;
+  g.slip.side_slip_deg = 0.5;
+  g.slip.side_slip_per_slope = 0.08;
+  g.slip.sway_m = 0.0008;
+  g.slip.heave_m = 0.001;
   g.slip.turn_centre_m = 0.02;
   g.slip.track_factor = 1.4;
   g.slip.track_factor_spread = 0.06;
-  g.vibration_mps2 = 0.5;
-  g.vibration_radps = 0.012;
+  g.vibration_mps2 = 0.35;
+  g.vibration_radps = 0.009;
   return g;
 }
 
