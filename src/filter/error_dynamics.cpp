@@ -168,21 +168,27 @@ ErrorTransition ErrorDynamics::transition(const NavigationState& start, const Na
 
 void ErrorDynamics::propagate(const ErrorTransition& t, ErrorCovariance& P) {
   P.diagonal() += 0.5 * t.noise;
-  // Rows of attitude, velocity and position against all columns, then their symmetric product.
-  Eigen::Matrix<double, 9, kErrorStates> top;
-  top.noalias() = t.nav * P.topRows<kNavStates>();
-  const Eigen::Matrix<double, 1, kErrorStates> yaw_scale = P.row(kYawScale);
-  top.middleRows<3>(kAttitude).noalias() += t.attitude_from_yaw_scale * yaw_scale;
-  top.middleRows<3>(kVelocity).noalias() += t.velocity_from_yaw_scale * yaw_scale;
+  // (Φ P)ᵀ for the rows of attitude, velocity and position, then their symmetric product. Small products column by
+  // column: Eigen's kernel for large ones takes longer.
+  Eigen::Matrix<double, kErrorStates, 9> top;
+  for (int row = 0; row < 9; ++row) {
+    ErrorVector sum = t.nav(row, 0) * P.col(0);
+    for (int k = 1; k < kNavStates; ++k) {
+      sum += t.nav(row, k) * P.col(k);
+    }
+    top.col(row) = sum;
+  }
+  const ErrorVector yaw_scale = P.col(kYawScale);
+  top.middleCols<3>(kAttitude) += yaw_scale.lazyProduct(t.attitude_from_yaw_scale.transpose());
+  top.middleCols<3>(kVelocity) += yaw_scale.lazyProduct(t.velocity_from_yaw_scale.transpose());
 
-  Eigen::Matrix<double, 9, 9> nav;
-  nav.noalias() = top.leftCols<kNavStates>() * t.nav.transpose();
-  nav.middleCols<3>(kAttitude).noalias() += top.col(kYawScale) * t.attitude_from_yaw_scale.transpose();
-  nav.middleCols<3>(kVelocity).noalias() += top.col(kYawScale) * t.velocity_from_yaw_scale.transpose();
+  Eigen::Matrix<double, 9, 9> nav = t.nav.lazyProduct(top.topRows<kNavStates>());
+  nav.middleRows<3>(kAttitude) += t.attitude_from_yaw_scale.lazyProduct(top.row(kYawScale));
+  nav.middleRows<3>(kVelocity) += t.velocity_from_yaw_scale.lazyProduct(top.row(kYawScale));
 
   P.topLeftCorner<9, 9>() = 0.5 * (nav + nav.transpose());
-  P.topRightCorner<9, kErrorStates - 9>() = top.rightCols<kErrorStates - 9>() * t.decay.asDiagonal();
-  P.bottomLeftCorner<kErrorStates - 9, 9>() = P.topRightCorner<9, kErrorStates - 9>().transpose();
+  P.bottomLeftCorner<kErrorStates - 9, 9>() = t.decay.asDiagonal() * top.bottomRows<kErrorStates - 9>();
+  P.topRightCorner<9, kErrorStates - 9>() = P.bottomLeftCorner<kErrorStates - 9, 9>().transpose();
   P.bottomRightCorner<kErrorStates - 9, kErrorStates - 9>().array() *= (t.decay * t.decay.transpose()).array();
   P.diagonal() += 0.5 * t.noise;
 }

@@ -44,8 +44,11 @@ ErrorReset correct(const Planet& planet, const ErrorVector& error, NavigationSta
 }
 
 void applyReset(const ErrorReset& reset, ErrorCovariance& P) {
-  P.topRows<9>() = (reset * P.topRows<9>()).eval();
-  P.leftCols<9>() = (P.leftCols<9>() * reset.transpose()).eval();
+  const Eigen::Matrix<double, 9, kErrorStates> top = reset * P.topRows<9>();
+  const Eigen::Matrix<double, 9, 9> nav = top.leftCols<9>() * reset.transpose();
+  P.topLeftCorner<9, 9>() = 0.5 * (nav + nav.transpose());
+  P.topRightCorner<9, kErrorStates - 9>() = top.rightCols<kErrorStates - 9>();
+  P.bottomLeftCorner<kErrorStates - 9, 9>() = P.topRightCorner<9, kErrorStates - 9>().transpose();
 }
 
 void forgetError(int index, double variance, ErrorCovariance& P) {

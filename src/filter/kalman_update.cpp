@@ -7,11 +7,10 @@
 namespace slipnav {
 namespace {
 
-using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxMeasurementRows, kMaxMeasurementRows>;
-
 /// P Hᵀ, the innovation covariance S and its Cholesky factor.
 struct Innovation {
-  Innovation(const Measurement& m, const ErrorCovariance& P) : PHt(P * m.H.transpose()), S(m.H * PHt) {
+  Innovation(const Measurement& m, const ErrorCovariance& P)
+      : PHt(P.lazyProduct(m.H.transpose())), S(m.H.lazyProduct(PHt)) {
     S.diagonal() += m.variance;
     usable = m.residual.allFinite() && S.allFinite();
     if (usable) {
@@ -27,8 +26,8 @@ struct Innovation {
     K.row(kYawScale).setZero();
     return K;
   }
-  Square S;
-  Eigen::LLT<Square> cholesky;
+  InnovationCovariance S;
+  Eigen::LLT<InnovationCovariance> cholesky;
   bool usable = false;
 };
 
@@ -51,18 +50,19 @@ std::optional<KalmanGain> kalmanGain(const Measurement& measurement, const Error
   return innovation.usable ? std::optional(innovation.gain()) : std::nullopt;
 }
 
+void addJosephTerms(const KalmanGain& K, const KalmanGain& PHt, const InnovationCovariance& S, ErrorCovariance& P) {
+  const KalmanGain half_KS_less_PHt = 0.5 * K.lazyProduct(S) - PHt;
+  const ErrorCovariance half = half_KS_less_PHt.lazyProduct(K.transpose());
+  P += half + half.transpose();
+}
+
 std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P) {
   const Innovation innovation(measurement, P);
   if (!innovation.usable) {
     return std::nullopt;
   }
-  const KalmanGain& PHt = innovation.PHt;
   const KalmanGain K = innovation.gain();
-  // (I−KH) P (I−KH)ᵀ + K R Kᵀ, multiplied out
-  const ErrorCovariance cross = K * PHt.transpose();
-  const KalmanGain KS = K * innovation.S;
-  P += KS * K.transpose() - cross - cross.transpose();
-  P = 0.5 * (P + P.transpose()).eval();
+  addJosephTerms(K, innovation.PHt, innovation.S, P);
   return ErrorVector(-K * measurement.residual);
 }
 

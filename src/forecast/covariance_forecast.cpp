@@ -16,15 +16,13 @@ double horizontalStd(const ErrorCovariance& P) {
   return std::sqrt(std::max(P(kPosition, kPosition) + P(kPosition + 1, kPosition + 1), 0.0));  // NaN stays NaN
 }
 
-/// P ← (I − K H) P (I − K H)ᵀ + K R Kᵀ for a gain that is not P's own.
+/// P after a measurement with a gain that is not P's own.
 void updateWith(const KalmanGain& K, const Measurement::Jacobian& H, const Measurement::Vector& variance,
                 ErrorCovariance& P) {
-  const Eigen::Matrix<double, kErrorStates, 3> PHt = P * H.transpose();
-  Matrix3 S = H * PHt;
+  const KalmanGain PHt = P.lazyProduct(H.transpose());
+  InnovationCovariance S = H.lazyProduct(PHt);
   S.diagonal() += variance;
-  const ErrorCovariance cross = K * PHt.transpose();
-  P += K * S * K.transpose() - cross - cross.transpose();
-  P = 0.5 * (P + P.transpose()).eval();
+  addJosephTerms(K, PHt, S, P);
 }
 
 void setGaussMarkov(int state, double std, double time_s, double step_s, ErrorTransition& transition) {

@@ -129,32 +129,33 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::fitFrom(GaussianProce
   return choice;
 }
 
-// All cold starts, or after a good fit only its hyperparameters, as long as none of the cold starts is better.
+// All cold starts; after a good fit the best of its hyperparameters and of the cold starts.
 std::vector<Eigen::VectorXd> GaussianProcessSlipModel::startPoints(GaussianProcess& process,
                                                                    const std::vector<LogPrior>& priors,
                                                                    int& evaluations) const {
-  std::vector<Eigen::VectorXd> cold;
-  cold.reserve(kColdStarts.size());
+  std::vector<Eigen::VectorXd> starts;
+  starts.reserve(kColdStarts.size() + 1);
   for (const double factor : kColdStarts) {
-    cold.push_back(startPoint(latent_, priors, factor));
+    starts.push_back(startPoint(latent_, priors, factor));
   }
   if (!last_good_) {
-    return cold;
+    return starts;
   }
-  const Eigen::VectorXd warm = clampToBounds(*last_good_, priors);
-  try {
-    const double warm_value = negativeLogPosterior(process, priors, warm, nullptr);
+  starts.push_back(clampToBounds(*last_good_, priors));
+  Eigen::VectorXd best = starts.back();
+  double best_value = std::numeric_limits<double>::infinity();
+  for (const Eigen::VectorXd& start : starts) {
     ++evaluations;
-    for (const Eigen::VectorXd& start : cold) {
-      ++evaluations;
-      if (negativeLogPosterior(process, priors, start, nullptr) < warm_value) {
-        return cold;
+    try {
+      const double value = negativeLogPosterior(process, priors, start, nullptr);
+      if (value < best_value) {
+        best_value = value;
+        best = start;
       }
+    } catch (const std::runtime_error&) {  // does not suit this window at all
     }
-  } catch (const std::runtime_error&) {
-    return cold;  // the previous hyperparameters do not suit this window at all
   }
-  return {warm};
+  return {best};
 }
 
 bool GaussianProcessSlipModel::adopt(const SlipWindow& window, const Eigen::VectorXd& log_parameters) {

@@ -33,6 +33,14 @@ class Objective {
     return x;
   }
 
+  /// What a full Newton step from the start would gain, were the steps standard deviations and uncorrelated.
+  double gainToExpect() {
+    const std::vector<double> x(priors_.size(), 0.0);
+    std::vector<double> gradient(priors_.size());
+    evaluate(static_cast<unsigned>(x.size()), x.data(), gradient.data());
+    return 0.5 * Eigen::Map<const Eigen::VectorXd>(gradient.data(), start_.size()).squaredNorm();
+  }
+
   const Eigen::VectorXd& best() const { return best_; }
   double bestValue() const { return best_value_; }
   int evaluations() const { return evaluations_; }
@@ -72,10 +80,17 @@ FitOutcome minimize(Objective& objective, std::size_t dimension, const FitSettin
   optimizer.set_lower_bounds(objective.toOptimizer(&LogPrior::lower));
   optimizer.set_upper_bounds(objective.toOptimizer(&LogPrior::upper));
   optimizer.set_ftol_abs(settings.tolerance);
-  optimizer.set_maxeval(settings.max_evaluations);
   std::vector<double> x(dimension, 0.0);
   double value = 0.0;
   try {
+    if (objective.gainToExpect() < settings.tolerance) {
+      return FitOutcome::kConverged;
+    }
+    const int budget = settings.max_evaluations - objective.evaluations();
+    if (budget < 1) {
+      return FitOutcome::kBudgetSpent;
+    }
+    optimizer.set_maxeval(budget);
     return optimizer.optimize(x, value) == nlopt::MAXEVAL_REACHED ? FitOutcome::kBudgetSpent : FitOutcome::kConverged;
   } catch (const nlopt::roundoff_limited&) {
     return FitOutcome::kConverged;  // no further step improves the objective

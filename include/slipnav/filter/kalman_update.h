@@ -30,9 +30,17 @@ std::optional<double> normalisedInnovationSquared(const Measurement& measurement
 
 using KalmanGain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kErrorStates, kMaxMeasurementRows>;
 
+/// H P Hᵀ + R of one measurement.
+using InnovationCovariance =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxMeasurementRows, kMaxMeasurementRows>;
+
 /// P Hᵀ (H P Hᵀ + R)⁻¹, with zero for the consider state kYawScale. The residual does not matter.
 /// Nothing when the innovation covariance is not positive definite.
 std::optional<KalmanGain> kalmanGain(const Measurement& measurement, const ErrorCovariance& P);
+
+/// P ← (I − K H) P (I − K H)ᵀ + K R Kᵀ for any gain, multiplied out; P stays symmetric to the last bit.
+/// @param PHt P Hᵀ; @param S H P Hᵀ + R
+void addJosephTerms(const KalmanGain& K, const KalmanGain& PHt, const InnovationCovariance& S, ErrorCovariance& P);
 
 /// Updates P and returns the estimated error, to be taken out of the state. Nothing, and P untouched, when the residual
 /// is not finite or the innovation covariance not positive definite.

@@ -21,7 +21,7 @@ struct SlipModelParameters {
   int min_samples = 15;             ///< usable samples that a window must have
   double slip_floor = 1e-3;         ///< slip that varies by less is constant
   int max_evaluations = 60;         ///< of the likelihood, per local fit
-  double tolerance = 1e-3;          ///< of the log posterior at which a fit ends
+  double tolerance = 1e-2;          ///< of the log posterior at which a fit ends
   PriorParameters prior;
 
   void visit(ParameterVisitor& v);
