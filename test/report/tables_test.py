@@ -188,6 +188,11 @@ class CurveTest(unittest.TestCase):
         self.assertIsNone(curve.lower_by_pct(4.0, 0.0))
 
 
+def heed_interrupts():
+    """Processes that a shell runs in the background are told to ignore them, and hand that on."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 class ProgramTest(unittest.TestCase):
     def setUp(self):
         self.directory = tempfile.mkdtemp(prefix="slipnav_tables_test_")
@@ -240,7 +245,8 @@ class ProgramTest(unittest.TestCase):
     def test_interruption_ends_the_drives(self):
         for number in (signal.SIGINT, signal.SIGTERM):
             process = subprocess.Popen(self.command(self.fake(hang="yes"), "--only", "table2", "--jobs", "2"),
-                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                                       preexec_fn=heed_interrupts)
             children = self.wait_for_children(process.pid, 2)
             process.send_signal(number)
             _, errors = process.communicate(timeout=30)
