@@ -27,6 +27,7 @@
 #include "slipnav/ros/health_report.h"
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/internal_topics.h"
+#include "slipnav/ros/latency_meter.h"
 #include "slipnav/ros/look_ahead.h"
 #include "slipnav/ros/patience.h"
 #include "slipnav/ros/wheel_input.h"
@@ -97,6 +98,7 @@ class FilterNodelet : public CoreNodelet {
     gate_.restart();
     health_->restart();
     look_ahead_.restart(initial.nav.stamp);
+    latency_.restart();
     engine_->reset();
     for (const WheelMotion& wheels : wheel_sessions_.startNext()) {
       useWheels(wheels);
@@ -144,6 +146,7 @@ class FilterNodelet : public CoreNodelet {
     for (const InsInterval& interval : message->steps) {
       gate_.push(fromMessage(interval, message->epoch), now_s);
       look_ahead_.addStep(toNanoseconds(interval.state.stamp));
+      latency_.expect(toNanoseconds(interval.state.stamp), interval.came_s);
     }
     proceed();
   }
@@ -200,6 +203,7 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
+  double tickInterval_s() const override { return 0.5 * kPatience_s; }
   void onTick() override { proceed(); }
 
   /// Works off what has become certain, and tells the mechanisation.
@@ -214,6 +218,7 @@ class FilterNodelet : public CoreNodelet {
           checkpoints_->offer(*engine_);
           handOverIfDue(estimate.nav.stamp);
           estimates_->publish(estimate, P);
+          latency_.published(estimate.nav.stamp, now());
         });
     health_->noteFilter(*engine_);
     if (correction) {
@@ -285,6 +290,7 @@ class FilterNodelet : public CoreNodelet {
     if (!engine_) {
       return;
     }
+    latency_.report(status);
     checkpoints_->diagnose(status);
     report(*health_, engine_->state().stamp, status);
     for (int i = 0; i < kComponents; ++i) {
@@ -304,6 +310,7 @@ class FilterNodelet : public CoreNodelet {
   Vector3 lever_imu_to_base_b_ = Vector3::Zero();
   StepGate gate_{std::nullopt};
   LookAhead look_ahead_{0.0};
+  LatencyMeter latency_;
   JumpFilter<WheelMotion> jumps_;
   WheelSessions wheel_sessions_;
   std::vector<InsSteps::ConstPtr> early_steps_;

@@ -20,6 +20,7 @@
 #include "slipnav/ros/health_report.h"
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/internal_topics.h"
+#include "slipnav/ros/latency_meter.h"
 
 namespace slipnav {
 
@@ -53,6 +54,7 @@ class InsNodelet : public CoreNodelet {
   void advertise(const Config&) override { steps_publisher_ = publisher<InsSteps>(kInsStepsTopic); }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
+    arrivals_.note(toNanoseconds(message->header.stamp), now());
     jumps_.push(toImuSample(*message, *mount_), [this](const ImuSample& passed) {
       sorter_.push(passed, [this](const ImuSample& sample) { use(sample); });
     });
@@ -141,6 +143,7 @@ class InsNodelet : public CoreNodelet {
       last_step_ = step->state.stamp;
       batch->epoch = step->epoch;
       batch->steps.push_back(toMessage(*step));
+      batch->steps.back().came_s = arrivals_.of(last_step_);
     }
     if (!batch->steps.empty()) {
       batch->start = start_count_;
@@ -185,6 +188,7 @@ class InsNodelet : public CoreNodelet {
   }
 
   std::optional<ImuMount> mount_;
+  Arrivals arrivals_;
   JumpFilter<ImuSample> jumps_;
   ImuSorter sorter_;
   std::optional<InsEngine> engine_;

@@ -86,6 +86,7 @@ class SimulatorNodelet : public CoreNodelet {
 
   static bool supervisorIsWired(const Config& config) { return config.stop.stopMode() != StopMode::kOff; }
 
+  double tickInterval_s() const override { return 0.05; }
   void onTick() override {
     const double tick_s = lastTickWas();
     if (waiting_ == Waiting::kForNodelets) {

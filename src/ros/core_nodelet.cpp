@@ -8,7 +8,6 @@
 namespace slipnav {
 namespace {
 
-constexpr double kTickInterval_s = 0.05;
 constexpr double kDiagnosticsInterval_s = 1.0;
 constexpr double kReminderInterval_s = 5.0;
 constexpr std::size_t kMaxWaiting = 200000;
@@ -39,7 +38,7 @@ void CoreNodelet::onInit() {
         status.add("changed while running", tuning_->changes());
       }
     });
-    tick_timer_ = getNodeHandle().createWallTimer(ros::WallDuration(kTickInterval_s),
+    tick_timer_ = getNodeHandle().createWallTimer(ros::WallDuration(tickInterval_s()),
                                                   [this](const ros::WallTimerEvent&) { tick(); });
     diagnostics_timer_ = getNodeHandle().createWallTimer(
         ros::WallDuration(kDiagnosticsInterval_s),

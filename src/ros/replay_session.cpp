@@ -64,7 +64,7 @@ std::vector<std::string> recordedTopics(const std::string& path) {
 
 }  // namespace
 
-ReplaySession::ReplaySession(const TopicNames& topics) {
+ReplaySession::ReplaySession(const TopicNames& topics, Outputs outputs) : outputs_(outputs) {
   const auto listen = [this](const std::string& topic, auto handler) {
     subscribers_.push_back(node_.subscribe(topic, 0, handler, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   };
@@ -73,6 +73,9 @@ ReplaySession::ReplaySession(const TopicNames& topics) {
                                 recorder_.add(*message);
                                 odometry_.add(*message);
                               }));
+  if (outputs == Outputs::kOdometry) {
+    return;
+  }
   listen(topics.nav_state, boost::function<void(const NavState::ConstPtr&)>(
                                [this](const NavState::ConstPtr& message) { recorder_.add(*message); }));
   listen(topics.slip, boost::function<void(const Slip::ConstPtr&)>(
@@ -137,8 +140,8 @@ void ReplaySession::waitForEstimate(Nanoseconds last_stamp) {
   std::size_t size = 0;
   do {
     size = recorder_.size();
-    spinUntil([this, last_stamp] { return recorder_.newestStamp() >= last_stamp; }, kSilence_s);
-  } while (recorder_.newestStamp() < last_stamp && recorder_.size() > size);
+    spinUntil([this, last_stamp] { return newestStamp() >= last_stamp; }, kSilence_s);
+  } while (newestStamp() < last_stamp && recorder_.size() > size);
   // The slip of the last wheel sample was published before, but comes on a way of its own.
   spinUntil([] { return false; }, kStragglers_s);
 }

@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <nodelet/NodeletList.h>
-#include <ros/network.h>
 #include <ros/ros.h>
-#include <ros/xmlrpc_manager.h>
 #include <signal.h>
 
 #include <algorithm>
@@ -22,6 +20,7 @@
 #include "ros/simulated_bag.h"
 #include "slipnav/navigator/checkpoint.h"
 #include "slipnav/ros/bag_evaluation.h"
+#include "slipnav/ros/node_process.h"
 #include "slipnav/ros/parameters.h"
 #include "slipnav/ros/replay_session.h"
 
@@ -35,25 +34,6 @@ constexpr double kLongestStep_s = 1.0;     // between estimates of a manager tha
 constexpr double kFastest_mps = 0.8;
 const ros::WallDuration kPollInterval(0.05);
 const char* const kNodelets[] = {"/ins", "/filter", "/initializer"};
-
-pid_t pidOf(const std::string& node) {
-  std::string host;
-  std::uint32_t port = 0;
-  XmlRpc::XmlRpcValue request;
-  XmlRpc::XmlRpcValue response;
-  XmlRpc::XmlRpcValue uri;
-  request[0] = ros::this_node::getName();
-  request[1] = node;
-  if (!ros::master::execute("lookupNode", request, response, uri, false) ||
-      !ros::network::splitURI(static_cast<std::string>(uri), host, port)) {
-    return 0;
-  }
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller;
-  XmlRpc::XmlRpcValue answer;
-  caller[0] = ros::this_node::getName();
-  return client.execute("getPid", caller, answer) ? static_cast<int>(answer[2]) : 0;
-}
 
 /// Whether the manager has all the nodelets that the estimate needs. Their loaders see only after some seconds without
 /// a heartbeat that it was gone.

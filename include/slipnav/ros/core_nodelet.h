@@ -48,6 +48,8 @@ class CoreNodelet : public nodelet::Nodelet {
   virtual void retune(const Config& /*config*/) {}
   /// Called regularly by the wall clock.
   virtual void onTick() {}
+  /// How often [s].
+  virtual double tickInterval_s() const { return 0.2; }
 
   /// No more calls: waits for those that run. To be called by the destructor of every nodelet, whose members they use.
   void stop();

@@ -17,6 +17,8 @@ class OdometryLog {
  public:
   void add(nav_msgs::Odometry message);
 
+  /// 0 before the first.
+  Nanoseconds newestStamp() const { return newest_; }
   const std::vector<std::uint8_t>& bytes() const { return bytes_; }
   /// Throws std::runtime_error that names the path.
   void write(const std::string& path) const;

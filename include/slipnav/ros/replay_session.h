@@ -23,8 +23,11 @@ struct ReplayOptions {
 /// Subscribes, plays, and collects the estimates.
 class ReplaySession {
  public:
-  /// Listens to the nodelets' outputs, relative to the node's namespace.
-  explicit ReplaySession(const TopicNames& topics);
+  /// What to listen to, relative to the node's namespace. With odometry alone,
+  /// recorder() has nothing of the rest.
+  enum class Outputs { kAll, kOdometry };
+
+  explicit ReplaySession(const TopicNames& topics, Outputs outputs = Outputs::kAll);
 
   /// Waits until all nodelets are there and connected. Throws std::runtime_error that says what is missing.
   void waitForNodelets();
@@ -41,7 +44,13 @@ class ReplaySession {
   const OdometryLog& odometry() const { return odometry_; }
 
  private:
+  /// Of the estimates that are complete.
+  Nanoseconds newestStamp() const {
+    return outputs_ == Outputs::kOdometry ? odometry_.newestStamp() : recorder_.newestStamp();
+  }
+
   ros::NodeHandle node_;
+  Outputs outputs_;
   EstimateRecorder recorder_;
   OdometryLog odometry_;
   std::vector<ros::Subscriber> subscribers_;

@@ -1,0 +1,253 @@
+/// Plays a recording through the running nodelets and says what that costs: CPU, memory, and how long an estimate
+/// takes, seen from outside; and how fast a recording may be played.
+
+#include <ros/ros.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/Imu.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iomanip>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "slipnav/config/command_line.h"
+#include "slipnav/config/text.h"
+#include "slipnav/eval/statistics.h"
+#include "slipnav/ros/bag_evaluation.h"
+#include "slipnav/ros/conversions.h"
+#include "slipnav/ros/node_process.h"
+#include "slipnav/ros/parameters.h"
+#include "slipnav/ros/replay_session.h"
+
+namespace {
+
+using slipnav::Arguments;
+using slipnav::CommandLine;
+using slipnav::Nanoseconds;
+using slipnav::ProcessUsage;
+using slipnav::Range;
+
+constexpr double kMostCpu_pct = 2.0;  // of a core
+constexpr double kMostMemory_mb = 60.0;
+constexpr double kMostLatency_ms = 2.0;
+constexpr double kLeastRate = 50.0;
+constexpr double kSettling_s = 10.0;  // of estimates, before the figures count
+/// The last one is far beyond what any machine sustains: rosbag play then goes as fast as the nodelets take it.
+constexpr double kRates[] = {50.0, 100.0, 1000.0};
+
+CommandLine commandLine() {
+  CommandLine command_line("load", "Plays a recording through the running nodelets and says what that costs.");
+  command_line.positional("BAG", "recording of ROS 1")
+      .option("seconds", "S", "how long to watch in real time", "60")
+      .option("out", "FILE", "where the table goes as well")
+      .option("manager", "NODE", "the nodelets' manager", "slipnav_manager")
+      .option("tree", "NAME", "parameter tree of the configuration", "slipnav");
+  return command_line;
+}
+
+/// When each message came, by its stamp.
+using Arrivals = std::map<Nanoseconds, double>;
+
+/// Listens beside the nodelets.
+class Probe {
+ public:
+  explicit Probe(const slipnav::TopicNames& topics) {
+    listen<sensor_msgs::Imu>(topics.imu, [this](Nanoseconds stamp) { imu_.emplace(stamp, now()); });
+    listen<nav_msgs::Odometry>(topics.odometry, [this](Nanoseconds stamp) { onEstimate(stamp); });
+  }
+
+  /// Forgets what has come, and passes over estimates before `stamp`; the first of the others calls `begin`.
+  void watchFrom(Nanoseconds stamp, const std::function<void()>& begin) {
+    imu_.clear();
+    estimates_.clear();
+    first_ = stamp;
+    begin_ = begin;
+  }
+
+  /// From each IMU sample to its estimate [ms], which may overtake it on the way here.
+  std::vector<double> latencies() const {
+    std::vector<double> times_ms;
+    for (const auto& [stamp, time_s] : estimates_) {
+      const auto sample = imu_.find(stamp);
+      if (sample != imu_.end()) {
+        times_ms.push_back(1e3 * std::max(0.0, time_s - sample->second));
+      }
+    }
+    return times_ms;
+  }
+
+  /// From the first estimate to the last [s], in real time and in the recording.
+  double watched_s() const {
+    return estimates_.empty() ? 0.0 : estimates_.rbegin()->second - estimates_.begin()->second;
+  }
+  double recorded_s() const {
+    return estimates_.empty() ? 0.0 : slipnav::toSeconds(estimates_.rbegin()->first - estimates_.begin()->first);
+  }
+
+  /// How many of these estimates have not come.
+  std::size_t missing(const slipnav::EstimateTrack& expected) const {
+    return static_cast<std::size_t>(std::count_if(
+        expected.begin(), expected.end(),
+        [this](const slipnav::EstimateSample& estimate) { return estimates_.count(estimate.stamp) == 0; }));
+  }
+
+ private:
+  static double now() { return ros::SteadyTime::now().toSec(); }
+
+  template <class Message>
+  void listen(const std::string& topic, const std::function<void(Nanoseconds)>& note) {
+    const boost::function<void(const boost::shared_ptr<const Message>&)> callback =
+        [note](const boost::shared_ptr<const Message>& message) {
+          note(slipnav::toNanoseconds(message->header.stamp));
+        };
+    subscribers_.push_back(
+        node_.subscribe<Message>(topic, 0, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  }
+
+  void onEstimate(Nanoseconds stamp) {
+    if (stamp < first_) {
+      return;
+    }
+    if (begin_) {
+      std::exchange(begin_, nullptr)();
+    }
+    estimates_.emplace(stamp, now());
+  }
+
+  ros::NodeHandle node_;
+  std::vector<ros::Subscriber> subscribers_;
+  Arrivals imu_;
+  Arrivals estimates_;
+  Nanoseconds first_ = 0;
+  std::function<void()> begin_;
+};
+
+/// Figures with their limits, a line each.
+class Table {
+ public:
+  void add(const std::string& figure, double measured) { row(figure, measured, ""); }
+  void addAtMost(const std::string& figure, double measured, double limit) {
+    row(figure, measured, "at most " + slipnav::formatNumber(limit) + (measured <= limit ? "" : "  MISSED"));
+  }
+  void addAtLeast(const std::string& figure, double measured, double limit) {
+    row(figure, measured, "at least " + slipnav::formatNumber(limit) + (measured >= limit ? "" : "  MISSED"));
+  }
+
+  std::string text() const { return text_.str(); }
+
+ private:
+  void row(const std::string& figure, double measured, const std::string& limit) {
+    text_ << std::left << std::setw(52) << figure << std::right << std::fixed << std::setprecision(2) << std::setw(9)
+          << measured << "  " << limit << '\n';
+  }
+
+  std::ostringstream text_;
+};
+
+/// Plays a recording at different rates and measures.
+class Load {
+ public:
+  Load(const Arguments& arguments, const slipnav::Config& config)
+      : bag_(arguments.text("BAG")),
+        manager_(ros::names::resolve(arguments.text("manager"))),
+        seconds_(arguments.number("seconds", Range{1.0, 1e5})),
+        offline_(slipnav::evaluateBag(bag_, config, "", {})),
+        session_(config.topics, slipnav::ReplaySession::Outputs::kOdometry),
+        probe_(config.topics) {
+    session_.waitForNodelets();
+  }
+
+  std::string run() {
+    watchInRealTime();
+    double highest = 0.0;
+    for (const double rate : kRates) {
+      highest = std::max(highest, playAt(rate));
+    }
+    table_.addAtLeast("highest playback rate without a lost message", highest, kLeastRate);
+    return table_.text();
+  }
+
+ private:
+  void watchInRealTime() {
+    const rosbag::Bag bag(bag_);
+    const Nanoseconds begin = slipnav::toNanoseconds(rosbag::View(bag).getBeginTime());
+    const Nanoseconds settled = offline_.report.estimates.front().stamp + slipnav::fromSeconds(kSettling_s);
+    const pid_t process = slipnav::pidOf(manager_);
+    ProcessUsage before;
+    probe_.watchFrom(settled, [&] { before = slipnav::usageOf(process); });
+    session_.play({bag_, 1.0, 0.0, slipnav::toSeconds(settled - begin) + seconds_});
+    const ProcessUsage after = slipnav::usageOf(process);
+    const std::vector<double> latencies = probe_.latencies();
+    if (latencies.empty()) {
+      throw std::runtime_error("no estimate came while the recording was played in real time");
+    }
+    table_.add("watched in real time [s]", probe_.watched_s());
+    table_.addAtMost("CPU of the manager [% of a core]", 100.0 * (after.cpu_s - before.cpu_s) / probe_.watched_s(),
+                     kMostCpu_pct);
+    table_.addAtMost("memory of the manager, resident [MB]", after.memory_mb, kMostMemory_mb);
+    table_.add("IMU sample to its odometry, p50 [ms]", slipnav::percentile(latencies, 50.0));
+    table_.addAtMost("IMU sample to its odometry, p99 [ms]", slipnav::percentile(latencies, 99.0), kMostLatency_ms);
+    table_.add("IMU sample to its odometry, longest [ms]", slipnav::percentile(latencies, 100.0));
+  }
+
+  /// @return the rate that was reached, 0 when something was lost
+  double playAt(double rate) {
+    probe_.watchFrom(0, [] {});
+    session_.play({bag_, rate, 0.0, 0.0});
+    session_.waitForEstimate(offline_.report.estimates.back().stamp);
+    const std::size_t missing = probe_.missing(offline_.report.estimates);
+    const double reached = probe_.watched_s() > 0.0 ? probe_.recorded_s() / probe_.watched_s() : 0.0;
+    table_.add("played at " + slipnav::formatNumber(rate) + ": times real time", reached);
+    table_.add("played at " + slipnav::formatNumber(rate) + ": estimates lost", static_cast<double>(missing));
+    return missing == 0 ? reached : 0.0;
+  }
+
+  std::string bag_;
+  std::string manager_;
+  double seconds_;
+  slipnav::BagEvaluation offline_;
+  slipnav::ReplaySession session_;
+  Probe probe_;
+  Table table_;
+};
+
+void write(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text << std::flush;
+  if (!file) {
+    throw std::runtime_error("cannot write '" + path + "'");
+  }
+}
+
+int run(int argc, char** argv) {
+  ros::V_string words;
+  ros::removeROSArgs(argc, argv, words);
+  const CommandLine command_line = commandLine();
+  const Arguments arguments = command_line.parse({words.begin() + 1, words.end()});
+  if (arguments.helpRequested()) {
+    std::cout << command_line.help();
+    return 0;
+  }
+  ros::init(argc, argv, "load");
+  const std::string table =
+      Load(arguments, slipnav::configFromParameters(ros::NodeHandle(), arguments.text("tree"))).run();
+  std::cout << table << std::flush;
+  if (arguments.given("out")) {
+    write(arguments.text("out"), table);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return slipnav::runGuarded("load", std::cerr, [argc, argv] { return run(argc, argv); });
+}
