@@ -221,7 +221,7 @@ std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {
   const auto count = static_cast<std::size_t>(std::lround(params_.horizon_s / params_.step_s));
   const auto stride = static_cast<std::size_t>(std::max(1L, std::lround(params_.step_s / params_.wheel_interval_s)));
   std::vector<DriveStep> steps(count);
-  Vector3 v_before_n = drive_.back().q_b_to_n * Vector3(outlook_.speed_mps, 0.0, 0.0);
+  Vector3 v_before_n = open_step_.v_eb_n;  // where the covariance is; the way from there to driving counts as well
   for (std::size_t i = 0; i < count; ++i) {
     DriveStep& step = steps[i];
     step.state = estimate.nav;

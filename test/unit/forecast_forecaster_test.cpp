@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "slipnav/config/config.h"
+#include "slipnav/math/rotation.h"
 
 namespace slipnav {
 namespace {
@@ -92,6 +94,40 @@ TEST_F(ForecasterTest, BoundGrowsFromTheStopAndSaysWhenToStop) {
   EXPECT_LT(error.horizontal_bound_m[passed - 1], 1.0);
   EXPECT_GE(error.horizontal_bound_m[passed], 1.0);
   EXPECT_NEAR(error.stop_distance_m, 0.76 * error.time_to_stop_s, 0.03 * error.time_to_stop_s);
+}
+
+/// After hours the heading is uncertain, and the position with it. That the rover gains speed must not be taken for a
+/// sight of the heading, which would move the position by metres.
+TEST_F(ForecasterTest, GainingSpeedTellsNothingAboutTheHeading) {
+  constexpr double kHeadingStd = 0.05;
+  P_(kAttitude + 2, kAttitude + 2) = kHeadingStd * kHeadingStd;
+  P_(kAttitude + 2, kPosition) = P_(kPosition, kAttitude + 2) = 0.99 * kHeadingStd * 10.0;
+  const auto covarianceAt =
+      [this](const Vector3& v_n) {  // a velocity in body axes that is known turns with the heading
+        ErrorCovariance turn = ErrorCovariance::Identity();
+        turn.block<3, 3>(kVelocity, kAttitude) = -skew(v_n);
+        return ErrorCovariance(turn * P_ * turn.transpose());
+      };
+  Forecaster forecaster = make();
+  const auto push = [&](int sample, double share) {
+    Estimate e = estimate(sample, slipAt(sample, 0.02), share == 0.0);
+    e.nav.v_eb_n *= share;
+    e.motion.v_eb_b *= share;
+    e.wheels.motion.forward_mps *= share;
+    return forecaster.push(e, covarianceAt(e.nav.v_eb_n));
+  };
+  for (int i = 0; i <= 150; ++i) {
+    push(i, i == 0 ? 0.0 : 1.0);
+  }
+  int forecasts = 0;
+  for (int i = 151; i <= 180; ++i) {
+    const double share = i < 155 ? 0.0 : std::min(1.0, 0.12 * (i - 154));
+    if (const std::optional<Forecast> forecast = push(i, share)) {
+      EXPECT_LT(forecast->error.horizontal_bound_m.front(), 0.5) << "sample " << i;
+      ++forecasts;
+    }
+  }
+  EXPECT_GE(forecasts, 2);
 }
 
 TEST_F(ForecasterTest, AbsoluteBoundCountsAllOfTheError) {
