@@ -15,7 +15,8 @@ void ForecastParams::visit(ParameterVisitor& v) {
   v.number("step_s", step_s, {0.02, 5.0}, "between simulated wheel measurements [s]");
   v.number("wheel_interval_s", wheel_interval_s, {0.001, 1.0}, "between real ones [s]");
   v.number("max_age_s", max_age_s, {1.0, 3600.0}, "older slip is left out of the window, after a long stop [s]");
-  v.number("speed_window_s", speed_window_s, {0.1, 600.0}, "the speed to come is the mean over this time [s]");
+  v.number("speed_window_s", speed_window_s, {0.1, 600.0},
+           "the speed to come is the mean over so much of driving, without starts and stops [s]");
   slip.visit(v);
   v.group("sigma_points", sigma_points, "from slip to wheel speed");
 }

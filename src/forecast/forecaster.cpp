@@ -12,6 +12,9 @@ namespace {
 /// Points of the horizon at which the predicted slip's correlation is sampled.
 constexpr int kCorrelationPoints = 61;
 
+/// Slower than this share of the fastest is starting or stopping.
+constexpr double kCruisingShare = 0.7;
+
 double square(double x) { return x * x; }
 
 /// Position in 0 … count − 1 that goes to and fro.
@@ -172,23 +175,33 @@ std::optional<Forecast> Forecaster::make(const Estimate& estimate) {
   return forecast;
 }
 
+/// Mean of the newest speeds, without those of starting and stopping: what is ahead is driven at the speed of before.
+double Forecaster::cruisingSpeed() const {
+  const auto slower = [](const Drive& a, const Drive& b) { return std::abs(a.speed_mps) < std::abs(b.speed_mps); };
+  const double fastest_mps = std::abs(std::max_element(drive_.begin(), drive_.end(), slower)->speed_mps);
+  const double most = std::max(1.0, params_.speed_window_s / params_.wheel_interval_s);
+  double sum_mps = 0.0;
+  double count = 0.0;
+  for (auto drive = drive_.rbegin(); drive != drive_.rend() && count < most; ++drive) {
+    if (std::abs(drive->speed_mps) >= kCruisingShare * fastest_mps) {
+      sum_mps += drive->speed_mps;
+      count += 1.0;
+    }
+  }
+  return sum_mps / count;
+}
+
 void Forecaster::learnSpeedAndSideSlip() {
-  double speed_mps = 0.0;
-  double newest = 0.0;
   double used = 0.0;
   double angle = 0.0;
   double angle2 = 0.0;
   for (const Drive& drive : drive_) {
-    if (toSeconds(drive_.back().stamp - drive.stamp) <= params_.speed_window_s) {
-      speed_mps += drive.speed_mps;
-      newest += 1.0;
-    }
     used += drive.wheel_speed_used ? 1.0 : 0.0;
     angle += drive.side_slip_rad;
     angle2 += square(drive.side_slip_rad);
   }
   const auto count = static_cast<double>(drive_.size());
-  outlook_.speed_mps = speed_mps / newest;
+  outlook_.speed_mps = cruisingSpeed();
   outlook_.wheel_share = used / count;
   outlook_.side_slip_std_rad = std::sqrt(std::max(0.0, angle2 / count - square(angle / count)));
 }
