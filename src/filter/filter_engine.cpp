@@ -234,7 +234,7 @@ std::optional<Correction> FilterEngine::advance(const EstimateSink& sink) {
 Vector3 FilterEngine::propagate(const InsStep& step) {
   const NavigationState before = state_;
   const Vector3 v_start_b = referenceVelocity(step);
-  const double duration_s = toSeconds(step.state.stamp - step.start);
+  const double duration_s = std::min(toSeconds(step.state.stamp - step.start), kLongestGap_s);
   transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
   transition_.noise(kSlowSlip) *= slip_ground_.variance();
   transition_.noise(kFastSlip) *= slip_ground_.variance();
@@ -246,8 +246,9 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   detector_.addImu(step.state.stamp, step.f_ib_b, step.omega_ib_b);
   state_ = step.state;
   if (step.gap_s > 0.0) {
-    unseen_motion_.begin(state_, step.gap_s, P_);
-    if (step.gap_s > setup_.filter.max_wheel_interval_s && !hasWheelsUpTo(step.start + fromSeconds(step.gap_s))) {
+    unseen_motion_.begin(state_, std::min(step.gap_s, kLongestGap_s), P_);
+    if (step.gap_s > setup_.filter.max_wheel_interval_s && step.gap_s <= kLongestGap_s &&
+        !hasWheelsUpTo(step.start + fromSeconds(step.gap_s))) {
       UnseenMotion::allowForStandstill(before, state_, P_);
     }
     forgetSlipImpulse();

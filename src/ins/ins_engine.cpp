@@ -115,7 +115,12 @@ std::optional<InsStep> InsEngine::step() {
     interval = steadyTurn(start, interval);
   }
   const ImuInterval previous = is_first ? ImuInterval{} : slot(next_ - 1).interval;
-  current.state = strapdown_.propagate(start, previous, interval, current.end);
+  if (current.gap_s > kLongestGap_s) {
+    current.state = start;
+    current.state.stamp = current.end;
+  } else {
+    current.state = strapdown_.propagate(start, previous, interval, current.end);
+  }
 
   InsStep result;
   result.sequence = next_ - base_;

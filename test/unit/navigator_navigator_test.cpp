@@ -307,5 +307,25 @@ TEST(Navigator, FreeInertialDoesNotWaitForWheels) {
   }
 }
 
+/// As when a computer has begun without a clock, and is told the year.
+TEST(Navigator, GoesOnAfterTheClockWasSetByYears) {
+  constexpr double kYears_s = 30.0 * 365.0 * 86400.0;
+  const Nanoseconds set_at = drive().initial.nav.stamp + fromSeconds(10.0);
+  std::vector<DriveSample> samples = drive().samples;
+  for (DriveSample& sample : samples) {
+    if (sample.stamp() > set_at) {
+      (sample.is_imu ? sample.imu.stamp : sample.wheels.stamp) += fromSeconds(kYears_s);
+    }
+  }
+  const EstimateLog log = runNavigator(config(), drive().initial, samples);
+  ASSERT_GT(log.size() + 2, sequentialRun().size());
+  EXPECT_TRUE(std::all_of(log.begin(), log.end(), isFiniteEstimate));
+  const LoggedEstimate& last = log.back();
+  const ErrorVector error =
+      errorBetween(Planet::byName("earth"), last.estimate.nav, sequentialRun().back().estimate.nav);
+  EXPECT_LT(error.segment<2>(kPosition).norm(), 3.0 * std::sqrt(last.P(kPosition, kPosition)));
+  EXPECT_LT(error.segment<2>(kPosition).norm(), 30.0);
+}
+
 }  // namespace
 }  // namespace slipnav::test

@@ -12,6 +12,10 @@
 
 namespace slipnav {
 
+/// A gap that is longer is none that a vehicle drives through: a clock has been set, or a computer was asleep. The
+/// vehicle counts as having stood for all of it, and its covariance grows as in one of this length [s].
+inline constexpr double kLongestGap_s = 60.0;
+
 /// One mechanised IMU interval.
 struct InsStep {
   std::uint64_t sequence = 0;  ///< counts IMU intervals since the initial state
