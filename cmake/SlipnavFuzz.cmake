@@ -22,6 +22,7 @@ if(SLIPNAV_FUZZ)
       add_executable(slipnav_${name} EXCLUDE_FROM_ALL
         "${source}" "${PROJECT_SOURCE_DIR}/test/fuzz/limited_memory.cpp")
       slipnav_configure_target(slipnav_${name})
+      target_include_directories(slipnav_${name} PRIVATE "${PROJECT_SOURCE_DIR}/test/support")
       target_link_libraries(slipnav_${name} PRIVATE ${library})
       if(SLIPNAV_HAS_LIBFUZZER)
         target_compile_options(slipnav_${name} PRIVATE -fsanitize=fuzzer)

@@ -26,6 +26,7 @@
 #include "slipnav/ros/node_process.h"
 #include "slipnav/ros/parameters.h"
 #include "slipnav/ros/replay_session.h"
+#include "slipnav/ros/ros_arguments.h"
 
 namespace {
 
@@ -228,10 +229,8 @@ void write(const std::string& path, const std::string& text) {
 }
 
 int run(int argc, char** argv) {
-  ros::V_string words;
-  ros::removeROSArgs(argc, argv, words);
   const CommandLine command_line = commandLine();
-  const Arguments arguments = command_line.parse({words.begin() + 1, words.end()});
+  const Arguments arguments = slipnav::parseWithoutRosArguments(command_line, argc, argv);
   if (arguments.helpRequested()) {
     std::cout << command_line.help();
     return 0;

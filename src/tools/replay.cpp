@@ -11,6 +11,7 @@
 #include "slipnav/ros/bag_evaluation.h"
 #include "slipnav/ros/parameters.h"
 #include "slipnav/ros/replay_session.h"
+#include "slipnav/ros/ros_arguments.h"
 
 namespace {
 
@@ -42,10 +43,8 @@ slipnav::ReplayOptions optionsOf(const Arguments& arguments) {
 }
 
 int run(int argc, char** argv) {
-  ros::V_string words;
-  ros::removeROSArgs(argc, argv, words);
   const CommandLine command_line = commandLine();
-  const Arguments arguments = command_line.parse({words.begin() + 1, words.end()});
+  const Arguments arguments = slipnav::parseWithoutRosArguments(command_line, argc, argv);
   if (arguments.helpRequested()) {
     std::cout << command_line.help();
     return 0;

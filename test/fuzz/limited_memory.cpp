@@ -25,14 +25,6 @@ void* allocateOrNull(std::size_t size) noexcept {
   return std::malloc(size);
 }
 
-void* allocate(std::size_t size) {
-  void* memory = allocateOrNull(size);
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return memory;
-}
-
 /// Says what was asked for when nobody has caught the refusal.
 const std::terminate_handler default_handler = std::set_terminate([] {
   try {
@@ -48,12 +40,4 @@ const std::terminate_handler default_handler = std::set_terminate([] {
 
 }  // namespace
 
-// All of them, as the sanitizers bring their own for those left out.
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocateOrNull(size); }
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return allocateOrNull(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include "replaced_new.h"

@@ -17,26 +17,9 @@ void* allocateOrNull(std::size_t size) noexcept {
   return std::malloc(size);
 }
 
-void* allocate(std::size_t size) {
-  void* memory = allocateOrNull(size);
-  if (memory == nullptr) {
-    throw std::bad_alloc();
-  }
-  return memory;
-}
-
 }  // namespace
 
-// All of them: a sanitizer brings its own for those left out, and takes their memory given to another's delete as a
-// mismatch.
-void* operator new(std::size_t size) { return allocate(size); }
-void* operator new[](std::size_t size) { return allocate(size); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return allocateOrNull(size); }
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return allocateOrNull(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+#include "replaced_new.h"
 
 namespace slipnav::test {
 namespace {
