@@ -14,20 +14,8 @@ constexpr double kRecentSpeedGain = 0.3;
 /// Fast slip with a larger variance, against what is usual, is that of a wheel that has lost its grip.
 constexpr double kKnownSlip = 4.0;
 constexpr double kIntervalTolerance_s = 1e-3;
-constexpr std::size_t kMaxWaiting = 4096;  // wheel samples kept while there is no initial state yet
 
-template <class Sample>
-bool earlier(const Sample& a, const Sample& b) {
-  return a.stamp < b.stamp;
-}
-
-/// Takes samples that end at or before `stamp` off the front.
-template <class Sample>
-void dropUpTo(Nanoseconds stamp, RingQueue<Sample>& queue) {
-  while (!queue.empty() && queue.front().stamp <= stamp) {
-    queue.pop_front();
-  }
-}
+bool earlier(const PositionFix& a, const PositionFix& b) { return a.stamp < b.stamp; }
 
 double square(double x) { return x * x; }
 
@@ -41,21 +29,20 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
       update_(setup.filter),
       unseen_motion_(setup.filter),
       wheel_monitor_(setup.wheel_monitor, setup.wheels),
-      cadence_(setup.filter.max_wheel_interval_s),
       tremor_(setup.zero),
       slip_ground_(setup.filter.ground),
       side_slip_ground_(setup.filter.ground),
       use_wheel_(setup.filter.uses("wheel")),
       use_nonholonomic_(setup.filter.uses("nonholonomic")),
       use_zupt_(setup.filter.uses("zupt")),
-      use_zaru_(setup.filter.uses("zaru")) {}
+      use_zaru_(setup.filter.uses("zaru")),
+      wheels_(setup.filter.max_wheel_interval_s) {}
 
 void FilterEngine::reset() {
   initialised_ = false;
   steps_.clear();
   wheels_.clear();
   fixes_.clear();
-  complete_until_ = 0;
 }
 
 void FilterEngine::retune(const FilterSetup& setup) {
@@ -83,23 +70,15 @@ void FilterEngine::initialise(const InitialState& initial) {
   if (initial.tremor_variance > 0.0) {
     tremor_.setVariance(initial.tremor_variance);
   }
-  average_.restart(0);
-  cadence_.restart(initial.nav.stamp);
+  // A wheel interval that began before the initial state is not known in full and goes unused.
+  average_.restart(wheels_.start(initial.nav.stamp) ? initial.nav.stamp : 0);
   vertical_average_.restart(0);
   recent_wheel_speed_mps_ = 0.0;
   slipping_until_ = 0;
   steps_.clear();
-  // A wheel interval that began before the initial state is not known in full and goes unused.
-  while (!wheels_.empty() && wheels_.front().stamp <= initial.nav.stamp) {
-    beginWheels(wheels_.front(), initial.nav.stamp);
-    wheels_.pop_front();
+  while (!fixes_.empty() && fixes_.front().stamp <= initial.nav.stamp) {
+    fixes_.pop_front();
   }
-  dropUpTo(initial.nav.stamp, fixes_);
-}
-
-/// A wheel sample with the very stamp of the initial state begins the first interval.
-void FilterEngine::beginWheels(const WheelMotion& wheels, Nanoseconds start) {
-  average_.restart(wheels.stamp == start ? start : 0);
 }
 
 void FilterEngine::push(const InsStep& step) {
@@ -110,31 +89,15 @@ void FilterEngine::push(const InsStep& step) {
 }
 
 bool FilterEngine::push(const WheelMotion& wheels) {
-  const bool finite = std::isfinite(wheels.motion.forward_mps) && std::isfinite(wheels.motion.yaw_rate_radps);
-  if (finite && initialised_ && next_sequence_ == 0 && wheels.stamp == state_.stamp) {
-    beginWheels(wheels, state_.stamp);
-    return true;
-  }
-  if (!finite || (initialised_ && isPast(wheels.stamp))) {
+  if (!std::isfinite(wheels.motion.forward_mps) || !std::isfinite(wheels.motion.yaw_rate_radps)) {
     return false;
   }
-  for (std::size_t i = 0; i < wheels_.size(); ++i) {
-    if (wheels_[i].stamp == wheels.stamp) {
-      return false;
-    }
+  if (initialised_ && next_sequence_ == 0 && wheels.stamp == state_.stamp) {
+    average_.restart(state_.stamp);  // begins the first interval
+    return true;
   }
-  if (!initialised_ && wheels_.size() >= kMaxWaiting) {
-    wheels_.pop_front();
-  }
-  wheels_.insertSorted(wheels, earlier<WheelMotion>);
-  return true;
+  return wheels_.push(wheels, state_.stamp);
 }
-
-bool FilterEngine::isPast(Nanoseconds wheels) const {
-  return wheels <= cadence_.newest() || cadence_.due(wheels) <= state_.stamp;
-}
-
-void FilterEngine::assumeCompleteUpTo(Nanoseconds stamp) { complete_until_ = std::max(complete_until_, stamp); }
 
 Correction FilterEngine::place(const Placement& placement) {
   const Geodetic& position = placement.position;
@@ -184,26 +147,18 @@ void FilterEngine::turnTo(double heading_rad, double heading_std_rad) {
   P_.diagonal().segment<2>(kVelocity).array() += square(heading_std_rad) * state_.v_eb_n.head<2>().squaredNorm();
 }
 
-Nanoseconds FilterEngine::wheelsKnownUntil() const {
-  Nanoseconds known = cadence_.newest();
-  for (std::size_t i = 0; i < wheels_.size() && !cadence_.isHole(known, wheels_[i].stamp); ++i) {
-    known = wheels_[i].stamp;
-  }
-  return std::max({known, complete_until_, cadence_.quietUntil() - 1});
-}
-
 bool FilterEngine::push(const PositionFix& fix) {
   const bool finite = std::isfinite(fix.position.latitude_rad) && std::isfinite(fix.position.longitude_rad) &&
                       std::isfinite(fix.position.height_m) && fix.variance_ned_m2.allFinite();
   if (!finite || (initialised_ && fix.stamp <= state_.stamp)) {
     return false;
   }
-  fixes_.insertSorted(fix, earlier<PositionFix>);
+  fixes_.insertSorted(fix, earlier);
   return true;
 }
 
 bool FilterEngine::isCertain(const InsStep& step) const {
-  if (setup_.filter.updates.empty() || wheelsKnownUntil() >= step.state.stamp) {
+  if (setup_.filter.updates.empty() || wheels_.knownUntil() >= step.state.stamp) {
     return true;
   }
   return toSeconds(steps_.back().state.stamp - step.state.stamp) >= setup_.filter.max_wait_s;
@@ -248,7 +203,7 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   if (step.gap_s > 0.0) {
     unseen_motion_.begin(state_, std::min(step.gap_s, kLongestGap_s), P_);
     if (step.gap_s > setup_.filter.max_wheel_interval_s && step.gap_s <= kLongestGap_s &&
-        !hasWheelsUpTo(step.start + fromSeconds(step.gap_s))) {
+        !wheels_.hasUpTo(step.start + fromSeconds(step.gap_s))) {
       UnseenMotion::allowForStandstill(before, state_, P_);
     }
     forgetSlipImpulse();
@@ -272,35 +227,21 @@ void FilterEngine::forgetSlipImpulse() {
   slipping_until_ = 0;
 }
 
-bool FilterEngine::hasWheelsUpTo(Nanoseconds stamp) const {
-  return !wheels_.empty() && cadence_.due(wheels_.front().stamp) <= stamp;
-}
-
-/// The next wheel sample, at the time when it counts.
-WheelMotion FilterEngine::takeWheels() {
-  WheelMotion wheels = wheels_.front();
-  wheels_.pop_front();
-  const Nanoseconds due = cadence_.due(wheels.stamp);
-  cadence_.add(wheels.stamp);
-  wheels.stamp = due;
-  return wheels;
-}
-
 bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
   estimate_.has_wheels = false;
   if (toSeconds(step.state.stamp - estimate_.wheels.stamp) > setup_.filter.max_wheel_interval_s) {
     estimate_.stationary = false;
   }
   bool corrected = false;
-  while (hasWheelsUpTo(step.state.stamp)) {
-    const WheelMotion wheels = takeWheels();
+  while (wheels_.hasUpTo(step.state.stamp)) {
+    const WheelMotion wheels = wheels_.take();
     const double interval_s = toSeconds(wheels.stamp - average_.start());
     addMotion(step, v_mean_b, wheels.stamp);
     const std::optional<BodyMotion> motion = average_.mean();
     detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
     // Of several in one step, as in a gap of the IMU, the last one counts: what they are compared with does not follow
     // from one correction to the next.
-    const bool is_last = !hasWheelsUpTo(step.state.stamp);
+    const bool is_last = !wheels_.hasUpTo(step.state.stamp);
     if (is_last && average_.start() != 0 && interval_s <= setup_.filter.max_wheel_interval_s && motion) {
       corrected = applyWheelSample(wheels, *motion) || corrected;
     } else {

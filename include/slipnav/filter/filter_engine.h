@@ -12,13 +12,13 @@
 #include <optional>
 
 #include "slipnav/container/ring_queue.h"
-#include "slipnav/filter/cadence.h"
 #include "slipnav/filter/error_dynamics.h"
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/filter/gated_update.h"
 #include "slipnav/filter/mean_motion.h"
 #include "slipnav/filter/unseen_motion.h"
+#include "slipnav/filter/wheel_queue.h"
 #include "slipnav/ins/ins_engine.h"
 #include "slipnav/measurement/position_fix.h"
 #include "slipnav/slip/stationary_detector.h"
@@ -58,10 +58,10 @@ class FilterEngine {
   std::optional<Correction> reissue();
 
   /// Says that no wheel sample up to `stamp` is still to come.
-  void assumeCompleteUpTo(Nanoseconds stamp);
+  void assumeCompleteUpTo(Nanoseconds stamp) { wheels_.assumeCompleteUpTo(stamp); }
 
   /// The stamp up to which wheel samples are known without a hole between them.
-  Nanoseconds wheelsKnownUntil() const;
+  Nanoseconds wheelsKnownUntil() const { return wheels_.knownUntil(); }
 
   /// Processes steps in order until none is certain, or until a measurement corrects the state. Then the correction has
   /// to reach the mechanisation, whose new steps come back by push().
@@ -80,10 +80,6 @@ class FilterEngine {
 
  private:
   bool isCertain(const InsStep& step) const;
-  bool isPast(Nanoseconds wheels) const;
-  bool hasWheelsUpTo(Nanoseconds stamp) const;
-  WheelMotion takeWheels();
-  void beginWheels(const WheelMotion& wheels, Nanoseconds start);
   Vector3 propagate(const InsStep& step);
   Vector3 referenceVelocity(const InsStep& step) const;
   void forgetSlipImpulse();
@@ -105,7 +101,6 @@ class FilterEngine {
   GatedUpdate update_;
   UnseenMotion unseen_motion_;
   WheelMonitor wheel_monitor_;
-  Cadence cadence_;  ///< of the samples that were processed
   Tremor tremor_;
   GroundFactor slip_ground_;
   GroundFactor side_slip_ground_;
@@ -123,9 +118,8 @@ class FilterEngine {
   std::uint32_t epoch_ = 0;
 
   RingQueue<InsStep> steps_;
-  RingQueue<WheelMotion> wheels_;  ///< not yet applied, by stamp
-  RingQueue<PositionFix> fixes_;   ///< likewise
-  Nanoseconds complete_until_ = 0;
+  WheelQueue wheels_;
+  RingQueue<PositionFix> fixes_;         ///< not yet applied, by stamp
   Nanoseconds slipping_until_ = 0;       ///< a slip impulse makes the wheel speed useless until then
   double recent_wheel_speed_mps_ = 0.0;  ///< of the samples before the present one, smoothed
   MeanMotion average_;                   ///< over the wheel interval that is open
