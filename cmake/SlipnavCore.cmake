@@ -5,6 +5,7 @@ list(FILTER core_sources EXCLUDE REGEX "/src/(ros|nodelets|tools)/")
 
 add_library(slipnav_core SHARED ${core_sources})
 slipnav_configure_target(slipnav_core)
+target_precompile_headers(slipnav_core PRIVATE ${SLIPNAV_COMMON_HEADERS})
 target_include_directories(slipnav_core PUBLIC "${PROJECT_SOURCE_DIR}/include")
 #catkin_lint: ignore_once external_interface_path
 target_include_directories(slipnav_core SYSTEM PUBLIC ${GeographicLib_INCLUDE_DIRS} PRIVATE ${NLOPT_INCLUDE_DIR})

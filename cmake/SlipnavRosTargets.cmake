@@ -3,6 +3,7 @@
 if(ros_sources)
   add_library(slipnav_ros SHARED ${ros_sources})
   slipnav_configure_target(slipnav_ros)
+  target_precompile_headers(slipnav_ros PRIVATE ${SLIPNAV_COMMON_HEADERS} ${SLIPNAV_ROS_HEADERS})
   # SYSTEM: the warnings above are for this package's own code, not for generated or foreign headers.
   #catkin_lint: ignore_once external_interface_path external_directory
   target_include_directories(slipnav_ros SYSTEM PUBLIC
@@ -16,6 +17,7 @@ if(ros_sources)
   if(nodelet_sources)
     add_library(slipnav_nodelets SHARED ${nodelet_sources})
     slipnav_configure_target(slipnav_nodelets)
+    target_precompile_headers(slipnav_nodelets PRIVATE ${SLIPNAV_COMMON_HEADERS} ${SLIPNAV_ROS_HEADERS})
     target_link_libraries(slipnav_nodelets PRIVATE slipnav_ros)
     set_target_properties(slipnav_nodelets PROPERTIES INSTALL_RPATH "$ORIGIN")
   endif()
