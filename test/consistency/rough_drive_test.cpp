@@ -11,13 +11,12 @@
 namespace slipnav::test {
 namespace {
 
-constexpr int kDrives = 100;
+/// So many that the average of one minute strays by 0.06: velocity is some 0.1 below exact, and has to be seen above
+/// 0.7.
+constexpr int kDrives = 200;
 constexpr double kDistance_m = 650.0;
 /// What the average normalised estimation error squared, per degree of freedom, may be: 1 is exact.
 constexpr Range kAnees{0.7, 1.35};
-/// The velocity of a rover that has just come to rest is known better than claimed: its tremor counts as white noise,
-/// although it stays where it is. All drives are in that phase at the same minute.
-constexpr Range kVelocityAnees{0.6, 1.35};
 constexpr Range kNis{0.7, 1.3};
 
 std::vector<DriveResult> drives(const std::string& policy) {
@@ -71,7 +70,7 @@ TEST_P(RoughDrives, CovarianceIsHonestAtEveryMinute) {
     std::printf("%s: attitude %.2f velocity %.2f position %.2f\n", when.c_str(), nees.attitude, nees.velocity,
                 nees.position);
     expectWithin(nees.attitude, kAnees, "attitude, " + when);
-    expectWithin(nees.velocity, kVelocityAnees, "velocity, " + when);
+    expectWithin(nees.velocity, kAnees, "velocity, " + when);
     expectWithin(nees.position, kAnees, "position, " + when);
   }
   double coverage_pct = 0.0;
