@@ -58,6 +58,8 @@ class FilterNodelet : public CoreNodelet {
     lever_imu_to_base_b_ = -config.imu.mount.position_b();
   }
 
+  std::string usualThread() const override { return kNavigationThread; }
+
   void subscribe(const Config& config) override {
     listen<InsSteps>(kInsStepsTopic, &FilterNodelet::onSteps);
     listen<StartState>(kInitialStateTopic, &FilterNodelet::onInitialState);
@@ -70,7 +72,7 @@ class FilterNodelet : public CoreNodelet {
   }
 
   void advertise(const Config& config) override {
-    estimates_ = std::make_unique<EstimatePublisher>(getNodeHandle(), config);
+    estimates_ = std::make_unique<EstimatePublisher>(node(), config);
     hand_over_publisher_ = publisher<StartState>(kHandOverTopic, true);
     request_publisher_ = publisher<std_msgs::UInt32>(kStartRequestTopic);
     correction_publisher_ = publisher<FilterCorrection>(kCorrectionTopic);

@@ -55,6 +55,8 @@ class InitializerNodelet : public CoreNodelet {
     initializer_.emplace(Planet::byName(config.planet), setup.initialization, setup.imu_input, setup.filter);
   }
 
+  std::string usualThread() const override { return kNavigationThread; }
+
   void subscribe(const Config& config) override {
     listen<StartState>(kHandOverTopic, &InitializerNodelet::onHandOver);  // first: it says whether to start at all
     listen<std_msgs::UInt32>(kStartRequestTopic, &InitializerNodelet::onStartRequest);

@@ -45,6 +45,8 @@ class InsNodelet : public CoreNodelet {
     health_.emplace(config.navigation().filter);
   }
 
+  std::string usualThread() const override { return kNavigationThread; }
+
   void subscribe(const Config& config) override {
     listen<sensor_msgs::Imu>(config.topics.imu, &InsNodelet::onImu);
     listen<StartState>(kInitialStateTopic, &InsNodelet::onInitialState);

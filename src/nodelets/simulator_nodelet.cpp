@@ -55,7 +55,7 @@ class SimulatorNodelet : public CoreNodelet {
 
   void begin(const Config& config) override {
     config_ = config;
-    options_.emplace(getPrivateNodeHandle());
+    options_.emplace(privateNode());
     const bool autonomous = options_->policy == "autonomous";
     if (autonomous && config.stop.stopMode() != StopMode::kActive) {
       throw std::invalid_argument("policy autonomous needs stop.mode: active");
@@ -80,7 +80,7 @@ class SimulatorNodelet : public CoreNodelet {
   }
 
   void advertise(const Config& config) override {
-    sensors_ = std::make_unique<SensorPublisher>(getNodeHandle(), config);
+    sensors_ = std::make_unique<SensorPublisher>(node(), config);
     command_publisher_ = publisher<geometry_msgs::Twist>(config.topics.cmd_vel_in);
   }
 
@@ -110,7 +110,7 @@ class SimulatorNodelet : public CoreNodelet {
   void lookForNodelets() {
     std::set<std::string> missing;
     for (const std::string& topic : expectedTopics()) {
-      missing.insert(getNodeHandle().resolveName(topic));
+      missing.insert(node().resolveName(topic));
     }
     ros::master::V_TopicInfo published;
     ros::master::getTopics(published);

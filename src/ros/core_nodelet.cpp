@@ -16,9 +16,10 @@ constexpr std::size_t kMaxWaiting = 200000;
 
 void CoreNodelet::onInit() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  chooseThread();
   try {
-    tree_ = getNodeHandle().resolveName(getPrivateNodeHandle().param<std::string>("config", "slipnav"));
-    config_ = configFromParameters(getNodeHandle(), tree_);
+    tree_ = node_.resolveName(private_node_.param<std::string>("config", "slipnav"));
+    config_ = configFromParameters(node_, tree_);
     if (config_.frames.extrinsicsFromTf()) {
       tf_buffer_ = std::make_unique<tf2_ros::Buffer>();
       tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
@@ -29,8 +30,8 @@ void CoreNodelet::onInit() {
     subscribe(config_);
     listen(kTuningTopic, &CoreNodelet::onTuning);
     // The updater has one name for its topic; only its own node handle can call it something else.
-    const ros::NodeHandle node(getNodeHandle(), "", {{"/diagnostics", config_.topics.diagnostics}});
-    updater_ = std::make_unique<diagnostic_updater::Updater>(node, getPrivateNodeHandle(), getName());
+    const ros::NodeHandle renamed(node_, "", {{"/diagnostics", config_.topics.diagnostics}});
+    updater_ = std::make_unique<diagnostic_updater::Updater>(renamed, private_node_, getName());
     updater_->setHardwareID("none");
     updater_->add(getName(), [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
       diagnose(status);
@@ -38,11 +39,11 @@ void CoreNodelet::onInit() {
         status.add("changed while running", tuning_->changes());
       }
     });
-    tick_timer_ = getNodeHandle().createWallTimer(ros::WallDuration(tickInterval_s()),
-                                                  [this](const ros::WallTimerEvent&) { tick(); });
-    diagnostics_timer_ = getNodeHandle().createWallTimer(
-        ros::WallDuration(kDiagnosticsInterval_s),
-        [this](const ros::WallTimerEvent&) { guarded([this] { updater_->force_update(); }); });
+    tick_timer_ =
+        node_.createWallTimer(ros::WallDuration(tickInterval_s()), [this](const ros::WallTimerEvent&) { tick(); });
+    diagnostics_timer_ =
+        node_.createWallTimer(ros::WallDuration(kDiagnosticsInterval_s),
+                              [this](const ros::WallTimerEvent&) { guarded([this] { updater_->force_update(); }); });
     advertise(config_);
   } catch (const std::exception& error) {
     subscribers_.clear();
@@ -50,6 +51,16 @@ void CoreNodelet::onInit() {
     tuning_.reset();
     NODELET_ERROR("%s stays idle: %s", getName().c_str(), error.what());
   }
+}
+
+void CoreNodelet::chooseThread() {
+  node_ = getNodeHandle();
+  private_node_ = getPrivateNodeHandle();
+  const auto name = private_node_.param<std::string>("thread", usualThread());
+  thread_ =
+      name.empty() ? std::make_shared<CallbackThread>() : CallbackThread::shared(node_.getNamespace() + "/" + name);
+  node_.setCallbackQueue(&thread_->queue());
+  private_node_.setCallbackQueue(&thread_->queue());
 }
 
 void CoreNodelet::stop() {
@@ -86,7 +97,7 @@ void CoreNodelet::offerTuning(const std::string& nodelet) {
   const TuningServer::Service service = [this](auto& request, auto& response) {
     return setParameters(request, response);
   };
-  tuning_ = std::make_unique<TuningServer>(getNodeHandle(), getPrivateNodeHandle(), nodelet, config_, service);
+  tuning_ = std::make_unique<TuningServer>(node_, private_node_, nodelet, config_, service);
 }
 
 std::vector<ParameterDifference> CoreNodelet::tune(const Config& next) {

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "slipnav/config/config.h"
+#include "slipnav/ros/callback_thread.h"
 #include "slipnav/ros/shared_publisher.h"
 #include "slipnav/ros/tuning_server.h"
 
@@ -29,6 +30,8 @@ namespace slipnav {
 /// With `extrinsics: tf`, messages wait until TF knows the sensors.
 ///
 /// A nodelet subscribes first and advertises last: once its topics are known to the master, it misses nothing.
+///
+/// Its callbacks run one at a time, on a thread of its own or one that it shares.
 class CoreNodelet : public nodelet::Nodelet {
  public:
   void onInit() final;
@@ -50,6 +53,13 @@ class CoreNodelet : public nodelet::Nodelet {
   virtual void onTick() {}
   /// How often [s].
   virtual double tickInterval_s() const { return 0.2; }
+  /// Nodelets of one namespace with the same word here share a thread: what goes back and forth between them wakes
+  /// nobody. "": a thread of its own. The private parameter `thread` says otherwise.
+  virtual std::string usualThread() const { return ""; }
+
+  /// Callbacks of these come on the thread that serves this nodelet.
+  ros::NodeHandle& node() { return node_; }
+  ros::NodeHandle& privateNode() { return private_node_; }
 
   /// No more calls: waits for those that run. To be called by the destructor of every nodelet, whose members they use.
   void stop();
@@ -61,13 +71,13 @@ class CoreNodelet : public nodelet::Nodelet {
     const boost::function<void(const Pointer&)> callback = [this, handler](const Pointer& message) {
       handle([this, handler, message] { (static_cast<Self*>(this)->*handler)(message); });
     };
-    subscribers_.push_back(getNodeHandle().subscribe<Message>(topic, kQueueSize, callback, ros::VoidConstPtr(),
-                                                              ros::TransportHints().tcpNoDelay()));
+    subscribers_.push_back(
+        node_.subscribe<Message>(topic, kQueueSize, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   }
 
   template <class Message>
   SharedPublisher<Message> publisher(const std::string& topic, bool latch = false) {
-    return {getNodeHandle(), topic, latch};
+    return {node_, topic, latch};
   }
 
   /// Offers a service in the nodelet's own namespace. Its response has `success` and `message`; an exception of the
@@ -81,7 +91,7 @@ class CoreNodelet : public nodelet::Nodelet {
       response.message = failure.empty() ? response.message : failure;
       return true;
     };
-    services_.push_back(getPrivateNodeHandle().advertiseService(name, callback));
+    services_.push_back(private_node_.advertiseService(name, callback));
   }
 
   /// Offers what the table of tunable parameters has for `nodelet` to dynamic_reconfigure. Called in subscribe().
@@ -91,6 +101,7 @@ class CoreNodelet : public nodelet::Nodelet {
   static double now() { return ros::SteadyTime::now().toSec(); }
 
  private:
+  void chooseThread();
   void handle(const std::function<void()>& work);
   void guarded(const std::function<void()>& work);
   /// @return what went wrong, "" when nothing did
@@ -102,6 +113,9 @@ class CoreNodelet : public nodelet::Nodelet {
   void tick();
   void waitForExtrinsics();
 
+  std::shared_ptr<CallbackThread> thread_;
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
   std::mutex mutex_;  ///< callbacks may come while onInit() is not done
   std::string tree_;  ///< of parameters
   Config config_;
