@@ -182,7 +182,14 @@ void ErrorDynamics::propagate(const ErrorTransition& t, ErrorCovariance& P) {
   top.middleCols<3>(kAttitude) += yaw_scale.lazyProduct(t.attitude_from_yaw_scale.transpose());
   top.middleCols<3>(kVelocity) += yaw_scale.lazyProduct(t.velocity_from_yaw_scale.transpose());
 
-  Eigen::Matrix<double, 9, 9> nav = t.nav.lazyProduct(top.topRows<kNavStates>());
+  Eigen::Matrix<double, 9, 9> nav;
+  for (int column = 0; column < 9; ++column) {
+    Eigen::Matrix<double, 9, 1> sum = t.nav.col(0) * top(0, column);
+    for (int k = 1; k < kNavStates; ++k) {
+      sum += t.nav.col(k) * top(k, column);
+    }
+    nav.col(column) = sum;
+  }
   nav.middleRows<3>(kAttitude) += t.attitude_from_yaw_scale.lazyProduct(top.row(kYawScale));
   nav.middleRows<3>(kVelocity) += t.velocity_from_yaw_scale.lazyProduct(top.row(kYawScale));
 

@@ -7,10 +7,10 @@
 namespace slipnav {
 namespace {
 
-/// P Hᵀ, the innovation covariance S and its Cholesky factor.
+/// S = H P Hᵀ + R of one measurement, and its Cholesky factor.
 struct Innovation {
   Innovation(const Measurement& m, const ErrorCovariance& P)
-      : PHt(P.lazyProduct(m.H.transpose())), S(m.H.lazyProduct(PHt)) {
+      : PHt(covarianceWithPrediction(m.H, P)), S(m.H.lazyProduct(PHt)) {
     S.diagonal() += m.variance;
     usable = m.residual.allFinite() && S.allFinite();
     if (usable) {
@@ -19,13 +19,28 @@ struct Innovation {
     }
   }
 
-  KalmanGain PHt;
-
+  /// K with K L Lᵀ = P Hᵀ: substitution forwards, then backwards, for all states at once.
   KalmanGain gain() const {
-    KalmanGain K = cholesky.solve(PHt.transpose()).transpose();
+    KalmanGain K = PHt;
+    const auto& L = cholesky.matrixLLT();
+    const Eigen::Index rows = L.rows();
+    for (Eigen::Index r = 0; r < rows; ++r) {
+      for (Eigen::Index q = 0; q < r; ++q) {
+        K.col(r) -= L(r, q) * K.col(q);
+      }
+      K.col(r) /= L(r, r);
+    }
+    for (Eigen::Index r = rows - 1; r >= 0; --r) {
+      for (Eigen::Index q = r + 1; q < rows; ++q) {
+        K.col(r) -= L(q, r) * K.col(q);
+      }
+      K.col(r) /= L(r, r);
+    }
     K.row(kYawScale).setZero();
     return K;
   }
+
+  KalmanGain PHt;
   InnovationCovariance S;
   Eigen::LLT<InnovationCovariance> cholesky;
   bool usable = false;
@@ -45,25 +60,43 @@ std::optional<double> normalisedInnovationSquared(const Measurement& measurement
   return measurement.residual.dot(weighted);
 }
 
-std::optional<KalmanGain> kalmanGain(const Measurement& measurement, const ErrorCovariance& P) {
-  const Innovation innovation(measurement, P);
-  return innovation.usable ? std::optional(innovation.gain()) : std::nullopt;
+KalmanGain covarianceWithPrediction(const Measurement::Jacobian& H, const ErrorCovariance& P) {
+  KalmanGain PHt(kErrorStates, H.rows());
+  for (Eigen::Index row = 0; row < H.rows(); ++row) {
+    ErrorVector sum = H(row, 0) * P.col(0);
+    for (int k = 1; k < kErrorStates; ++k) {
+      sum += H(row, k) * P.col(k);
+    }
+    PHt.col(row) = sum;
+  }
+  return PHt;
 }
 
 void addJosephTerms(const KalmanGain& K, const KalmanGain& PHt, const InnovationCovariance& S, ErrorCovariance& P) {
-  const KalmanGain half_KS_less_PHt = 0.5 * K.lazyProduct(S) - PHt;
-  const ErrorCovariance half = half_KS_less_PHt.lazyProduct(K.transpose());
-  P += half + half.transpose();
+  const KalmanGain half = 0.5 * K.lazyProduct(S) - PHt;
+  // P + half Kᵀ + K halfᵀ by columns. An entry and its mirror image are sums of the same pairs.
+  for (int column = 0; column < kErrorStates; ++column) {
+    ErrorVector change = ErrorVector::Zero();
+    for (Eigen::Index row = 0; row < K.cols(); ++row) {
+      change += K(column, row) * half.col(row) + half(column, row) * K.col(row);
+    }
+    P.col(column) += change;
+  }
 }
 
-std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P) {
+std::optional<KalmanGain> updateCovariance(const Measurement& measurement, ErrorCovariance& P) {
   const Innovation innovation(measurement, P);
   if (!innovation.usable) {
     return std::nullopt;
   }
   const KalmanGain K = innovation.gain();
   addJosephTerms(K, innovation.PHt, innovation.S, P);
-  return ErrorVector(-K * measurement.residual);
+  return K;
+}
+
+std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P) {
+  const std::optional<KalmanGain> K = updateCovariance(measurement, P);
+  return K ? std::optional<ErrorVector>(-*K * measurement.residual) : std::nullopt;
 }
 
 double chiSquareQuantile(int degrees, double alpha) {

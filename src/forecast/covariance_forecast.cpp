@@ -19,7 +19,7 @@ double horizontalStd(const ErrorCovariance& P) {
 /// P after a measurement with a gain that is not P's own.
 void updateWith(const KalmanGain& K, const Measurement::Jacobian& H, const Measurement::Vector& variance,
                 ErrorCovariance& P) {
-  const KalmanGain PHt = P.lazyProduct(H.transpose());
+  const KalmanGain PHt = covarianceWithPrediction(H, P);
   InnovationCovariance S = H.lazyProduct(PHt);
   S.diagonal() += variance;
   addJosephTerms(K, PHt, S, P);
@@ -111,8 +111,7 @@ void CovarianceForecast::advance(const DriveStep& step, const GroundOutlook& out
   Measurement measurement(3);
   measurement.H = wheels.H;
   measurement.variance = wheels.claimed;
-  if (const std::optional<KalmanGain> K = kalmanGain(measurement, claim)) {
-    updateWith(*K, wheels.H, wheels.claimed, claim);
+  if (const std::optional<KalmanGain> K = updateCovariance(measurement, claim)) {
     updateWith(*K, wheels.H, wheels.real, reality);
   }
 }

@@ -156,6 +156,23 @@ TEST(ErrorDynamics, TransitionIsOfSecondOrder) {
   }
 }
 
+/// P ← Φ (P + ½Q) Φᵀ + ½Q with the whole matrix Φ.
+TEST(ErrorDynamics, PropagationIsThatOfTheWholeMatrices) {
+  sim::RandomStream random(9, "transition");
+  for (int i = 0; i < 20; ++i) {
+    const Situation s = randomSituation(random, 1.0);
+    const double T = 0.5;
+    const ErrorTransition t = dynamics().transition(s.start, mechanised(s, s.start, T), s.f_ib_b, s.omega_ib_b, T);
+    ErrorCovariance P = randomCovariance(random);
+    const ErrorCovariance half_noise = (0.5 * t.noise).asDiagonal();
+    const ErrorCovariance expected = t.matrix() * (P + half_noise) * t.matrix().transpose() + half_noise;
+    ErrorDynamics::propagate(t, P);
+    const ErrorVector sigma = expected.diagonal().cwiseSqrt();
+    EXPECT_LT(((P - expected).array() / (sigma * sigma.transpose()).array()).abs().maxCoeff(), 1e-12);
+    EXPECT_EQ(P, P.transpose());
+  }
+}
+
 /// An estimate that takes the scale factor for larger than it is takes too much of the rate away.
 TEST(ErrorDynamics, YawScaleTurnsTheAttitude) {
   const Planet earth = Planet::byName("earth");

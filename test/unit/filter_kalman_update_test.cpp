@@ -68,6 +68,46 @@ TEST(KalmanUpdate, IsTheTextbooksJosephForm) {
   }
 }
 
+TEST(KalmanUpdate, GainIsThatOfTheTextbook) {
+  sim::RandomStream random(5, "update");
+  for (int rows = 1; rows <= kMaxMeasurementRows; ++rows) {
+    ErrorCovariance P = randomCovariance(random);
+    const Measurement m = randomMeasurement(random, rows, P);
+    const Eigen::MatrixXd H = m.H;
+    const Eigen::MatrixXd R = Eigen::VectorXd(m.variance).asDiagonal();
+    Eigen::MatrixXd expected = P * H.transpose() * (H * P * H.transpose() + R).inverse();
+    expected.row(kYawScale).setZero();
+    const ErrorVector sigma = P.diagonal().cwiseSqrt();
+    const ErrorCovariance updated = joseph(m, P).P;
+    const std::optional<KalmanGain> K = updateCovariance(m, P);
+    ASSERT_TRUE(K);
+    EXPECT_LT((sigma.cwiseInverse().asDiagonal() * (*K - expected)).norm(),
+              1e-11 * (sigma.cwiseInverse().asDiagonal() * expected).norm());
+    EXPECT_LT(largestRelativeDifference(P, updated), 1e-12);
+  }
+}
+
+/// (I − K H) P (I − K H)ᵀ + K R Kᵀ for a gain that is far from optimal.
+TEST(KalmanUpdate, JosephTermsHoldForAnyGain) {
+  sim::RandomStream random(6, "update");
+  for (int rows = 1; rows <= kMaxMeasurementRows; ++rows) {
+    ErrorCovariance P = randomCovariance(random);
+    const Measurement m = randomMeasurement(random, rows, P);
+    KalmanGain K = covarianceWithPrediction(m.H, P);
+    for (int row = 0; row < rows; ++row) {
+      K.col(row) *= random.uniform(-0.5, 0.5) / m.variance(row);
+    }
+    const Eigen::MatrixXd H = m.H;
+    const Eigen::MatrixXd R = Eigen::VectorXd(m.variance).asDiagonal();
+    const Eigen::MatrixXd remainder = Eigen::MatrixXd::Identity(kErrorStates, kErrorStates) - K * H;
+    const ErrorCovariance expected = remainder * P * remainder.transpose() + K * R * K.transpose();
+    const InnovationCovariance S = H * P * H.transpose() + R;
+    addJosephTerms(K, P * H.transpose(), S, P);
+    EXPECT_LT(largestRelativeDifference(P, expected), 1e-12);
+    EXPECT_EQ(P, P.transpose());
+  }
+}
+
 /// One row that sees one state: the scalar formulas, with the sign of the residual.
 TEST(KalmanUpdate, MovesTheEstimateTowardsTheMeasurement) {
   ErrorCovariance P = ErrorCovariance::Identity();

@@ -34,19 +34,21 @@ using KalmanGain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kError
 using InnovationCovariance =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxMeasurementRows, kMaxMeasurementRows>;
 
-/// P Hᵀ (H P Hᵀ + R)⁻¹, with zero for the consider state kYawScale. The residual does not matter.
-/// Nothing when the innovation covariance is not positive definite.
-std::optional<KalmanGain> kalmanGain(const Measurement& measurement, const ErrorCovariance& P);
+/// Updates P and returns the gain P Hᵀ (H P Hᵀ + R)⁻¹ that did it. Nothing, and P untouched, when the residual is not
+/// finite or the innovation covariance not positive definite.
+///
+/// The gain of the consider state kYawScale is zero; the Joseph form holds for any gain.
+std::optional<KalmanGain> updateCovariance(const Measurement& measurement, ErrorCovariance& P);
+
+/// As updateCovariance(), but returns the estimated error, to be taken out of the state.
+std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P);
+
+/// P Hᵀ: covariance of the state's errors with those of the measurement's prediction.
+KalmanGain covarianceWithPrediction(const Measurement::Jacobian& H, const ErrorCovariance& P);
 
 /// P ← (I − K H) P (I − K H)ᵀ + K R Kᵀ for any gain, multiplied out; P stays symmetric to the last bit.
 /// @param PHt P Hᵀ; @param S H P Hᵀ + R
 void addJosephTerms(const KalmanGain& K, const KalmanGain& PHt, const InnovationCovariance& S, ErrorCovariance& P);
-
-/// Updates P and returns the estimated error, to be taken out of the state. Nothing, and P untouched, when the residual
-/// is not finite or the innovation covariance not positive definite.
-///
-/// The gain of the consider state kYawScale is zero; the Joseph form holds for any gain.
-std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P);
 
 /// 1 − alpha quantile of the chi-square distribution with `degrees` degrees of freedom.
 /// Throws std::invalid_argument unless degrees ≥ 1 and 0 < alpha < 1.
