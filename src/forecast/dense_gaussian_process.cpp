@@ -20,6 +20,22 @@ constexpr std::array<double, 4> kRelativeJitters = {0.0, 1e-12, 1e-10, 1e-8};
 // precision, even summed over thousands of samples. Taken as zero: what follows would be slow on denormal numbers.
 constexpr double kNegligibleCorrelation = 1e-20;
 
+// Two columns are multiples of each other when they differ by less than this share: a few times the rounding of an
+// exponential. What a prediction has from the samples then differs by less than 1e-9 of itself.
+constexpr double kSameShape = 1e-14;
+
+// The f with column = f · other, or zero where there is none.
+double multipleOf(const Eigen::Ref<const Eigen::VectorXd>& other, const Eigen::Ref<const Eigen::VectorXd>& column) {
+  Eigen::Index largest = 0;
+  const double size = other.cwiseAbs().maxCoeff(&largest);
+  if (size == 0.0) {
+    return 0.0;
+  }
+  const double factor = column(largest) / other(largest);
+  const double difference = (column - factor * other).cwiseAbs().maxCoeff();
+  return difference <= kSameShape * std::abs(factor) * size ? factor : 0.0;
+}
+
 // Inverse of the lower triangular `l` into the lower triangle of `out`, whose upper triangle must be zero:
 // [A 0; B C]⁻¹ = [A⁻¹ 0; −C⁻¹ B A⁻¹ C⁻¹], a third of the work of solving for the identity.
 void invertLowerTriangle(const Eigen::Ref<const Eigen::MatrixXd>& l, Eigen::Ref<Eigen::MatrixXd> out) {
@@ -57,8 +73,7 @@ void multiplyTransposedByLowerTriangle(const Eigen::Ref<const Eigen::MatrixXd>& 
 
 }  // namespace
 
-DenseGaussianProcess::DenseGaussianProcess(KernelPtr latent)
-    : latent_(std::move(latent)), total_(latent_ + std::make_shared<WhiteKernel>(1.0)) {}
+DenseGaussianProcess::DenseGaussianProcess(KernelPtr latent) : latent_(std::move(latent)) {}
 
 void DenseGaussianProcess::setSamples(const Eigen::VectorXd& times, const Eigen::VectorXd& values) {
   checkSamples(times, values);
@@ -68,16 +83,34 @@ void DenseGaussianProcess::setSamples(const Eigen::VectorXd& times, const Eigen:
   conditioned_ = false;
 }
 
-void DenseGaussianProcess::fillCovariance() {
-  const Eigen::Index n = times_.size();
-  for (Eigen::Index j = 0; j < n; ++j) {
-    total_->column(times_.tail(n - j), times_(j), factor_.col(j).tail(n - j));
-  }
+void DenseGaussianProcess::setLogParameters(const Eigen::VectorXd& log_parameters) {
+  const Eigen::Index latent_parameters = latent_->parameterCount();
+  latent_->setLogParameters(log_parameters.head(latent_parameters));
+  noise_variance_ = std::exp(log_parameters(latent_parameters));
 }
 
-void DenseGaussianProcess::factorize() {
+void DenseGaussianProcess::fillCovariance(bool with_derivatives) {
+  const Eigen::Index n = times_.size();
+  if (with_derivatives) {
+    derivatives_.resize(n * (n + 1) / 2, latent_->parameterCount());
+  }
+  Eigen::Index row = 0;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const Eigen::Index length = n - j;
+    if (with_derivatives) {
+      latent_->columnWithDerivatives(times_.tail(length), times_(j), factor_.col(j).tail(length),
+                                     derivatives_.middleRows(row, length));
+      row += length;
+    } else {
+      latent_->column(times_.tail(length), times_(j), factor_.col(j).tail(length));
+    }
+  }
+  factor_.diagonal().array() += noise_variance_;
+}
+
+void DenseGaussianProcess::factorize(bool with_derivatives) {
   for (const double jitter : kRelativeJitters) {
-    fillCovariance();
+    fillCovariance(with_derivatives);
     factor_.diagonal().array() += jitter * factor_.diagonal().mean();
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> cholesky(factor_);
     if (cholesky.info() == Eigen::Success && factor_.diagonal().allFinite()) {
@@ -90,8 +123,8 @@ void DenseGaussianProcess::factorize() {
 
 double DenseGaussianProcess::negativeLogLikelihood(const Eigen::VectorXd& log_parameters, Eigen::VectorXd* gradient) {
   conditioned_ = false;
-  total_->setLogParameters(log_parameters);
-  factorize();
+  setLogParameters(log_parameters);
+  factorize(gradient != nullptr);
   alpha_ = values_;
   factor_.triangularView<Eigen::Lower>().solveInPlace(alpha_);
   const double fit = 0.5 * alpha_.squaredNorm();
@@ -103,21 +136,26 @@ double DenseGaussianProcess::negativeLogLikelihood(const Eigen::VectorXd& log_pa
   return fit + factor_.diagonal().array().log().sum() + static_cast<double>(values_.size()) * half_log_2pi;
 }
 
-// ∂(−log p)/∂θ = −½ tr((α αᵀ − K⁻¹) ∂K/∂θ), column by column over the lower triangle.
+// ∂(−log p)/∂θ = −½ tr((α αᵀ − K⁻¹) ∂K/∂θ), over the lower triangle.
 void DenseGaussianProcess::likelihoodGradient(Eigen::VectorXd& gradient) {
   const Eigen::Index n = times_.size();
   inverse_factor_.setZero(n, n);
   invertLowerTriangle(factor_, inverse_factor_);
   precision_.resize(n, n);
   multiplyTransposedByLowerTriangle(inverse_factor_, precision_);
-  weights_.resize(n);
-  gradient.setZero(parameterCount());
+  weights_.resize(derivatives_.rows());
+  double diagonal = 0.0;
+  Eigen::Index row = 0;
   for (Eigen::Index j = 0; j < n; ++j) {
-    Eigen::Ref<Eigen::VectorXd> weights = weights_.tail(n - j);
+    Eigen::Ref<Eigen::VectorXd> weights = weights_.segment(row, n - j);
     weights = precision_.col(j).tail(n - j) - alpha_(j) * alpha_.tail(n - j);
     weights(0) *= 0.5;  // entries below the diagonal stand for two
-    total_->addColumnGradient(times_.tail(n - j), times_(j), weights, gradient);
+    diagonal += weights(0);
+    row += n - j;
   }
+  gradient.resize(parameterCount());
+  gradient.head(latent_->parameterCount()).noalias() = derivatives_.transpose() * weights_;
+  gradient(latent_->parameterCount()) = noise_variance_ * diagonal;
 }
 
 double DenseGaussianProcess::condition(const Eigen::VectorXd& log_parameters) {
@@ -142,22 +180,29 @@ double DenseGaussianProcess::crossCovariance(double time, Kernel::Out out) const
 LatentPrediction DenseGaussianProcess::predict(const Eigen::VectorXd& times) const {
   requireConditioned();
   LatentPrediction prediction{Eigen::VectorXd::Zero(times.size()), Eigen::VectorXd(times.size())};
-  // Far from the samples the posterior is the prior; only the columns that differ from it are solved for, together.
+  // Far from the samples the posterior is the prior; and where all components but one of a single state have faded, a
+  // column is a multiple of the one before. Only the others are solved for, together.
   Eigen::MatrixXd cross(times_.size(), times.size());
-  std::vector<Eigen::Index> informed;
+  std::vector<std::pair<Eigen::Index, double>> sources;  // column solved for, and its factor
+  sources.reserve(static_cast<std::size_t>(times.size()));
+  Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < times.size(); ++i) {
-    const auto count = static_cast<Eigen::Index>(informed.size());
     prediction.variance(i) = crossCovariance(times(i), cross.col(count));
-    if ((cross.col(count).array() != 0.0).any()) {
-      prediction.mean(i) = cross.col(count).dot(alpha_);
-      informed.push_back(i);
+    prediction.mean(i) = cross.col(count).dot(alpha_);
+    double factor = count == 0 ? 0.0 : multipleOf(cross.col(count - 1), cross.col(count));
+    if (factor == 0.0 && (cross.col(count).array() != 0.0).any()) {
+      factor = 1.0;
+      ++count;
     }
+    sources.emplace_back(count - 1, factor);
   }
-  const auto count = static_cast<Eigen::Index>(informed.size());
   factor_.triangularView<Eigen::Lower>().solveInPlace(cross.leftCols(count));
-  for (Eigen::Index k = 0; k < count; ++k) {
-    double& variance = prediction.variance(informed[static_cast<std::size_t>(k)]);
-    variance = std::max(0.0, variance - cross.col(k).squaredNorm());
+  const Eigen::VectorXd known = cross.leftCols(count).colwise().squaredNorm();
+  for (Eigen::Index i = 0; i < times.size(); ++i) {
+    const auto [column, factor] = sources[static_cast<std::size_t>(i)];
+    if (factor != 0.0) {
+      prediction.variance(i) = std::max(0.0, prediction.variance(i) - factor * factor * known(column));
+    }
   }
   return prediction;
 }

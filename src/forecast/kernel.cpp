@@ -6,10 +6,11 @@
 namespace slipnav {
 namespace {
 
-// Products need the values of one factor beside those of the other: they work on pieces of this length, on the stack.
+// Sums and products need the values of one kernel beside those of the other: they work on pieces of this length, on the
+// stack. Both ways to a column cut it alike, since what is left over beside packets of two may be rounded differently.
 constexpr Eigen::Index kChunk = 128;
 using Chunk = Eigen::Matrix<double, kChunk, 1>;
-using ChunkArray = Eigen::Array<double, kChunk, 1>;
+using Array = Eigen::Map<Eigen::ArrayXd>;
 
 // Exponents stop here: e^−600 is nothing beside one, and what it is multiplied with stays clear of denormal numbers,
 // on which the arithmetic is many times slower.
@@ -36,18 +37,9 @@ void ConstantKernel::setLogParameters(In log_parameters) { variance_ = std::exp(
 
 void ConstantKernel::column(In, double, Out out) const { out.setConstant(variance_); }
 
-void ConstantKernel::addColumnGradient(In, double, In weights, Out gradient) const {
-  gradient(0) += variance_ * weights.sum();
-}
-
-void WhiteKernel::setLogParameters(In log_parameters) { variance_ = std::exp(log_parameters(0)); }
-
-void WhiteKernel::column(In times, double reference_time, Out out) const {
-  out = (times.array() == reference_time).cast<double>() * variance_;
-}
-
-void WhiteKernel::addColumnGradient(In times, double reference_time, In weights, Out gradient) const {
-  gradient(0) += variance_ * (times.array() == reference_time).select(weights.array(), 0.0).sum();
+void ConstantKernel::columnWithDerivatives(In, double, Out out, Derivatives derivatives) const {
+  out.setConstant(variance_);
+  derivatives.setConstant(variance_);
 }
 
 void BrownianKernel::column(In times, double reference_time, Out out) const { out = times.array().min(reference_time); }
@@ -55,18 +47,16 @@ void BrownianKernel::column(In times, double reference_time, Out out) const { ou
 void RbfKernel::setLogParameters(In log_parameters) { length_scale_s_ = std::exp(log_parameters(0)); }
 
 void RbfKernel::column(In times, double reference_time, Out out) const {
-  const double scale = -0.5 / (length_scale_s_ * length_scale_s_);
-  out = (scale * (times.array() - reference_time).square()).max(kMinExponent).exp();
+  const double rate = 1.0 / length_scale_s_;
+  out = (-0.5 * (rate * (times.array() - reference_time)).square()).max(kMinExponent).exp();
 }
 
-void RbfKernel::addColumnGradient(In times, double reference_time, In weights, Out gradient) const {
-  const double inverse_s = 1.0 / length_scale_s_;
-  forEachChunk(times.size(), [&](Eigen::Index start, Eigen::Index length) {
-    ChunkArray buffer;
-    Eigen::Map<Eigen::ArrayXd> z(buffer.data(), length);
-    z = (inverse_s * (times.segment(start, length).array() - reference_time)).square();
-    gradient(0) += (weights.segment(start, length).array() * z * (-0.5 * z).max(kMinExponent).exp()).sum();
-  });
+void RbfKernel::columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const {
+  const double rate = 1.0 / length_scale_s_;
+  Array z(derivatives.col(0).data(), times.size());
+  z = (rate * (times.array() - reference_time)).square();
+  out = (-0.5 * z).max(kMinExponent).exp();
+  z *= out.array();
 }
 
 double maternRate(MaternOrder order) { return std::sqrt(2.0 * static_cast<double>(order) + 1.0); }
@@ -74,45 +64,39 @@ double maternRate(MaternOrder order) { return std::sqrt(2.0 * static_cast<double
 void MaternKernel::setLogParameters(In log_parameters) { length_scale_s_ = std::exp(log_parameters(0)); }
 
 void MaternKernel::column(In times, double reference_time, Out out) const {
-  Eigen::Map<Eigen::ArrayXd> x(out.data(), out.size());
-  x = maternRate(order_) / length_scale_s_ * (times.array() - reference_time).abs();
-  switch (order_) {
-    case MaternOrder::kHalf:
-      x = (-x).max(kMinExponent).exp();
-      break;
-    case MaternOrder::kThreeHalves:
-      x = (1.0 + x) * (-x).max(kMinExponent).exp();
-      break;
-    case MaternOrder::kFiveHalves:
-      x = (1.0 + x * (1.0 + x / 3.0)) * (-x).max(kMinExponent).exp();
-      break;
-    case MaternOrder::kSevenHalves:
-      x = (1.0 + x * (1.0 + x * (0.4 + x / 15.0))) * (-x).max(kMinExponent).exp();
-      break;
-  }
+  forEachChunk(times.size(), [&](Eigen::Index start, Eigen::Index length) {
+    Chunk unused;
+    columnWithDerivatives(times.segment(start, length), reference_time, out.segment(start, length),
+                          unused.head(length));
+  });
 }
 
-void MaternKernel::addColumnGradient(In times, double reference_time, In weights, Out gradient) const {
+void MaternKernel::columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const {
   const double rate = maternRate(order_) / length_scale_s_;
   forEachChunk(times.size(), [&](Eigen::Index start, Eigen::Index length) {
-    ChunkArray buffer;
-    Eigen::Map<Eigen::ArrayXd> x(buffer.data(), length);
+    Chunk buffer;
+    Array x(buffer.data(), length);
+    Array value(out.data() + start, length);
+    Array derivative(derivatives.col(0).data() + start, length);
     x = rate * (times.segment(start, length).array() - reference_time).abs();
-    switch (order_) {  // −x d/dx of the covariance
+    value = (-x).max(kMinExponent).exp();
+    switch (order_) {  // the derivative by log ℓ is −x d/dx of the covariance
       case MaternOrder::kHalf:
-        x = x * (-x).max(kMinExponent).exp();
+        derivative = x * value;
         break;
       case MaternOrder::kThreeHalves:
-        x = x.square() * (-x).max(kMinExponent).exp();
+        derivative = x.square() * value;
+        value *= 1.0 + x;
         break;
       case MaternOrder::kFiveHalves:
-        x = x.square() * (1.0 + x) / 3.0 * (-x).max(kMinExponent).exp();
+        derivative = x.square() * (1.0 + x) / 3.0 * value;
+        value *= 1.0 + x * (1.0 + x / 3.0);
         break;
       case MaternOrder::kSevenHalves:
-        x = x.square() * (3.0 + x * (3.0 + x)) / 15.0 * (-x).max(kMinExponent).exp();
+        derivative = x.square() * (3.0 + x * (3.0 + x)) / 15.0 * value;
+        value *= 1.0 + x * (1.0 + x * (0.4 + x / 15.0));
         break;
     }
-    gradient(0) += (weights.segment(start, length).array() * x).sum();
   });
 }
 
@@ -130,9 +114,15 @@ void SumKernel::column(In times, double reference_time, Out out) const {
   });
 }
 
-void SumKernel::addColumnGradient(In times, double reference_time, In weights, Out gradient) const {
-  first_->addColumnGradient(times, reference_time, weights, gradient.head(first_->parameterCount()));
-  second_->addColumnGradient(times, reference_time, weights, gradient.tail(second_->parameterCount()));
+void SumKernel::columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const {
+  first_->columnWithDerivatives(times, reference_time, out, derivatives.leftCols(first_->parameterCount()));
+  forEachChunk(times.size(), [&](Eigen::Index start, Eigen::Index length) {
+    Chunk buffer;
+    second_->columnWithDerivatives(
+        times.segment(start, length), reference_time, buffer.head(length),
+        derivatives.block(start, first_->parameterCount(), length, second_->parameterCount()));
+    out.segment(start, length) += buffer.head(length);
+  });
 }
 
 void ProductKernel::setLogParameters(In log_parameters) {
@@ -141,29 +131,30 @@ void ProductKernel::setLogParameters(In log_parameters) {
 }
 
 void ProductKernel::column(In times, double reference_time, Out out) const {
-  first_->column(times, reference_time, out);
   forEachChunk(times.size(), [&](Eigen::Index start, Eigen::Index length) {
     Chunk buffer;
+    first_->column(times.segment(start, length), reference_time, out.segment(start, length));
     second_->column(times.segment(start, length), reference_time, buffer.head(length));
     out.segment(start, length).array() *= buffer.head(length).array();
   });
 }
 
-void ProductKernel::addColumnGradient(In times, double reference_time, In weights, Out gradient) const {
-  // A factor without parameters needs no weights, so the values of the other one are not computed for it.
-  const auto addFactor = [&](const Kernel& factor, const Kernel& other, Out factor_gradient) {
-    if (factor.parameterCount() == 0) {
-      return;
+void ProductKernel::columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const {
+  const Eigen::Index of_first = first_->parameterCount();
+  const Eigen::Index of_second = second_->parameterCount();
+  forEachChunk(times.size(), [&](Eigen::Index start, Eigen::Index length) {
+    Chunk buffer;
+    Array first(out.data() + start, length);
+    Array second(buffer.data(), length);
+    first_->columnWithDerivatives(times.segment(start, length), reference_time, first.matrix(),
+                                  derivatives.block(start, 0, length, of_first));
+    second_->columnWithDerivatives(times.segment(start, length), reference_time, second.matrix(),
+                                   derivatives.block(start, of_first, length, of_second));
+    for (Eigen::Index p = 0; p < of_first + of_second; ++p) {
+      derivatives.col(p).segment(start, length).array() *= p < of_first ? second : first;
     }
-    forEachChunk(times.size(), [&](Eigen::Index start, Eigen::Index length) {
-      Chunk buffer;
-      other.column(times.segment(start, length), reference_time, buffer.head(length));
-      buffer.head(length).array() *= weights.segment(start, length).array();
-      factor.addColumnGradient(times.segment(start, length), reference_time, buffer.head(length), factor_gradient);
-    });
-  };
-  addFactor(*first_, *second_, gradient.head(first_->parameterCount()));
-  addFactor(*second_, *first_, gradient.tail(second_->parameterCount()));
+    first *= second;
+  });
 }
 
 }  // namespace slipnav

@@ -99,6 +99,28 @@ TEST(DenseGaussianProcess, FarAheadIsThePrior) {
   EXPECT_NEAR(prediction.variance(0), 3.6e-4 * 75.0, 1e-15);
 }
 
+TEST(DenseGaussianProcess, PredictionsTogetherAreThoseOneByOne) {
+  // Where only the slow component is left, the many share one solution; alone each has its own.
+  const Eigen::VectorXd slips = goldenSlips();
+  const Eigen::VectorXd ahead = Eigen::VectorXd::LinSpaced(600, 20.0, 80.0);
+  for (const char* name : {"rbf_slow", "ou_slow", "paper_bias", "matern_bias"}) {
+    DenseGaussianProcess process(makeKernel(latentModelByName(name)));
+    process.setSamples(evenTimes(slips.size(), 0.1), slips);
+    Eigen::VectorXd theta = Eigen::VectorXd::Constant(process.parameterCount(), std::log(0.003));
+    theta(1) = std::log(0.9);
+    if (theta.size() == 5) {
+      theta(3) = std::log(20.0);
+    }
+    process.condition(theta);
+    const LatentPrediction together = process.predict(ahead);
+    for (Eigen::Index i = 0; i < ahead.size(); ++i) {
+      const LatentPrediction alone = process.predict(ahead.segment(i, 1));
+      EXPECT_NEAR(together.mean(i), alone.mean(0), 1e-15) << name << " " << ahead(i);
+      EXPECT_NEAR(together.variance(i), alone.variance(0), 1e-9 * alone.variance(0)) << name << " " << ahead(i);
+    }
+  }
+}
+
 TEST(DenseGaussianProcess, GradientAtTheTruthAveragesToZeroOverItsOwnSamples) {
   // The score has zero mean: what a fit to many windows of one process relies on.
   const Eigen::VectorXd theta = Eigen::Vector3d(std::log(4e-4), 0.0, std::log(0.003));

@@ -14,7 +14,7 @@ class DenseGaussianProcess : public GaussianProcess {
   /// @param latent the kernel of f; its parameters are overwritten by those of each call
   explicit DenseGaussianProcess(KernelPtr latent);
 
-  Eigen::Index parameterCount() const override { return total_->parameterCount(); }
+  Eigen::Index parameterCount() const override { return latent_->parameterCount() + 1; }
   void setSamples(const Eigen::VectorXd& times, const Eigen::VectorXd& values) override;
   double negativeLogLikelihood(const Eigen::VectorXd& log_parameters, Eigen::VectorXd* gradient) override;
   double condition(const Eigen::VectorXd& log_parameters) override;
@@ -26,21 +26,23 @@ class DenseGaussianProcess : public GaussianProcess {
   double relativeJitter() const { return relative_jitter_; }
 
  private:
-  void factorize();
-  void fillCovariance();
+  void factorize(bool with_derivatives);
+  void setLogParameters(const Eigen::VectorXd& log_parameters);
+  void fillCovariance(bool with_derivatives);
   void likelihoodGradient(Eigen::VectorXd& gradient);
   void requireConditioned() const;
   double crossCovariance(double time, Kernel::Out out) const;  ///< with the samples; returns the prior variance
 
   KernelPtr latent_;
-  KernelPtr total_;  ///< latent plus white noise
+  double noise_variance_ = 1.0;
   Eigen::VectorXd times_;
   Eigen::VectorXd values_;
   Eigen::MatrixXd factor_;          ///< lower triangle: covariance of the samples, then its Cholesky factor L
   Eigen::MatrixXd inverse_factor_;  ///< L⁻¹
   Eigen::MatrixXd precision_;       ///< lower triangle: inverse of the covariance of the samples
   Eigen::VectorXd alpha_;           ///< K⁻¹ y
-  Eigen::VectorXd weights_;         ///< a column of α αᵀ − K⁻¹
+  Eigen::MatrixXd derivatives_;     ///< of the lower triangle's columns, one below the other, by latent parameter
+  Eigen::VectorXd weights_;         ///< K⁻¹ − α αᵀ in the same order
   double relative_jitter_ = 0.0;
   bool conditioned_ = false;
 };

@@ -7,7 +7,7 @@
 ///
 /// Times are seconds since the origin of the process. Parameters are natural logarithms, in the order in which the
 /// kernels stand in the expression. Kernels work on part of a column of the covariance matrix at a time: that is all
-/// that a symmetric matrix needs, stays in cache, and needs no memory beyond the matrix itself.
+/// that a symmetric matrix needs, and stays in cache. A column and its derivatives come from the same exponentials.
 ///
 /// Source: C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, chapter 4.
 
@@ -21,6 +21,7 @@ class Kernel {
  public:
   using In = const Eigen::Ref<const Eigen::VectorXd>&;
   using Out = Eigen::Ref<Eigen::VectorXd>;
+  using Derivatives = Eigen::Ref<Eigen::MatrixXd>;
 
   virtual ~Kernel() = default;
 
@@ -32,8 +33,8 @@ class Kernel {
   /// out(i) = k(times(i), reference_time).
   virtual void column(In times, double reference_time, Out out) const = 0;
 
-  /// gradient(p) += Σ_i weights(i) ∂k(times(i), reference_time)/∂log_parameter(p).
-  virtual void addColumnGradient(In times, double reference_time, In weights, Out gradient) const = 0;
+  /// The same, to the last bit, and derivatives(i, p) = ∂k(times(i), reference_time)/∂log_parameter(p).
+  virtual void columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const = 0;
 
   /// k(time, time).
   double variance(double time) const;
@@ -48,20 +49,7 @@ class ConstantKernel : public Kernel {
   Eigen::Index parameterCount() const override { return 1; }
   void setLogParameters(In log_parameters) override;
   void column(In times, double reference_time, Out out) const override;
-  void addColumnGradient(In times, double reference_time, In weights, Out gradient) const override;
-
- private:
-  double variance_;
-};
-
-/// k = σ² where t = t', else zero; parameter log σ².
-class WhiteKernel : public Kernel {
- public:
-  explicit WhiteKernel(double variance) : variance_(variance) {}
-  Eigen::Index parameterCount() const override { return 1; }
-  void setLogParameters(In log_parameters) override;
-  void column(In times, double reference_time, Out out) const override;
-  void addColumnGradient(In times, double reference_time, In weights, Out gradient) const override;
+  void columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const override;
 
  private:
   double variance_;
@@ -73,7 +61,9 @@ class BrownianKernel : public Kernel {
   Eigen::Index parameterCount() const override { return 0; }
   void setLogParameters(In) override {}
   void column(In times, double reference_time, Out out) const override;
-  void addColumnGradient(In, double, In, Out) const override {}
+  void columnWithDerivatives(In times, double reference_time, Out out, Derivatives) const override {
+    column(times, reference_time, out);
+  }
 };
 
 /// k = exp(−(t−t')²/2ℓ²); parameter log ℓ, ℓ in seconds.
@@ -83,7 +73,7 @@ class RbfKernel : public Kernel {
   Eigen::Index parameterCount() const override { return 1; }
   void setLogParameters(In log_parameters) override;
   void column(In times, double reference_time, Out out) const override;
-  void addColumnGradient(In times, double reference_time, In weights, Out gradient) const override;
+  void columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const override;
 
  private:
   double length_scale_s_;
@@ -102,7 +92,7 @@ class MaternKernel : public Kernel {
   Eigen::Index parameterCount() const override { return 1; }
   void setLogParameters(In log_parameters) override;
   void column(In times, double reference_time, Out out) const override;
-  void addColumnGradient(In times, double reference_time, In weights, Out gradient) const override;
+  void columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const override;
 
  private:
   MaternOrder order_;
@@ -116,7 +106,7 @@ class SumKernel : public Kernel {
   Eigen::Index parameterCount() const override { return first_->parameterCount() + second_->parameterCount(); }
   void setLogParameters(In log_parameters) override;
   void column(In times, double reference_time, Out out) const override;
-  void addColumnGradient(In times, double reference_time, In weights, Out gradient) const override;
+  void columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const override;
 
  private:
   KernelPtr first_;
@@ -130,7 +120,7 @@ class ProductKernel : public Kernel {
   Eigen::Index parameterCount() const override { return first_->parameterCount() + second_->parameterCount(); }
   void setLogParameters(In log_parameters) override;
   void column(In times, double reference_time, Out out) const override;
-  void addColumnGradient(In times, double reference_time, In weights, Out gradient) const override;
+  void columnWithDerivatives(In times, double reference_time, Out out, Derivatives derivatives) const override;
 
  private:
   KernelPtr first_;
