@@ -153,8 +153,8 @@ void MarkovShape::transition(double tau, Eigen::Ref<Eigen::MatrixXd> phi) const 
 }
 
 double MarkovShape::correlation(double tau) const {
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kRbfOrder, kRbfOrder> phi(dimension(),
-                                                                                                   dimension());
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kRbfOrder, kRbfOrder>;
+  Matrix phi = Matrix::Zero(dimension(), dimension());
   transition(tau, phi);
   return output_.dot(phi.lazyProduct(stationary_gain_));
 }
@@ -169,7 +169,6 @@ void MarkovShape::maternTransition(double tau, Eigen::Ref<Eigen::MatrixXd> phi) 
 }
 
 void MarkovShape::modalTransition(double tau, Eigen::Ref<Eigen::MatrixXd> phi) const {
-  phi.setZero();
   Eigen::Index row = 0;
   for (const std::complex<double>& pole : poles_) {
     const double decay = std::exp(pole.real() * tau);

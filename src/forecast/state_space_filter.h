@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "paired_blocks.h"
 #include "slipnav/forecast/gaussian_process.h"
 #include "slipnav/forecast/markov_shape.h"
 #include "slipnav/types.h"
@@ -37,18 +38,24 @@ class StateSpaceFilter {
   Eigen::Index parameterCount() const { return parameter_count_; }
   void setLogParameters(const Eigen::VectorXd& log_parameters);
 
-  /// −log p; leaves the filter at the last sample.
+  /// −log p; leaves the filter at the last sample. With the gradient come the whitened sensitivities.
   virtual double run(const Eigen::VectorXd& times, const Eigen::VectorXd& values, Eigen::VectorXd* gradient) = 0;
+  /// Expected information of the samples on the log hyperparameters, at the last run with a gradient.
+  Eigen::MatrixXd information() const { return whitened_.transpose() * whitened_; }
   virtual LatentPrediction predict(double last_time, const Eigen::VectorXd& times) const = 0;
   virtual Eigen::MatrixXd predictCovariance(double last_time, const Eigen::VectorXd& times) const = 0;
 
  protected:
+  void addNoise(double count_less_chi_square, Eigen::VectorXd& gradient);
   double priorVariance(double time) const;
   double priorCovariance(double earlier, double later) const;
 
   std::vector<MarkovComponent> components_;
   Eigen::Index parameter_count_ = 1;
   double noise_variance_ = 1.0;
+  /// By hyperparameter, two rows a sample: the derivatives of the innovation variance S over √2 S, and those of the
+  /// innovation over √S.
+  Eigen::MatrixXd whitened_;
 };
 
 template <int D>
@@ -82,13 +89,12 @@ class FixedStateSpaceFilter : public StateSpaceFilter {
   };
 
   bool hasPairs() const;
-  Matrix fromLeft(const Matrix& drift_like, const Matrix& m) const;
-  Belief predicted(const Matrix& phi, const Belief& belief) const;
+  void predict(const Matrix& phi, Belief& belief) const;
   Matrix transition(double interval_s) const;
   Vector outputAfter(double interval_s) const;
-  void predictSensitivities(const Matrix& phi, double interval_s, const Belief& predicted_belief);
+  void predictSensitivities(const Matrix& phi, double interval_s);
   Innovation innovate(double time, double value) const;
-  void updateSensitivities(const Innovation& innovation, double time, Eigen::VectorXd& gradient);
+  void updateSensitivities(const Innovation& innovation, double time, Eigen::Index sample, Eigen::VectorXd& gradient);
   void updateBelief(const Innovation& innovation);
 
   std::vector<Block> blocks_;  ///< one per component
@@ -114,7 +120,7 @@ FixedStateSpaceFilter<D>::FixedStateSpaceFilter(std::vector<MarkovComponent> com
 }
 
 // Whether drift, and with it the transition, has nothing but blocks of 2×2 on its diagonal: conjugate pairs of poles,
-// and single states. Products with them then take a quarter of the work, with the same result to the last bit.
+// and single states. Products with them then go block by block, and those above the diagonal mirror those below.
 template <int D>
 bool FixedStateSpaceFilter<D>::hasPairs() const {
   Matrix outside = Matrix::Zero();
@@ -125,21 +131,6 @@ bool FixedStateSpaceFilter<D>::hasPairs() const {
     outside.template block<2, 2>(i, i).setZero();
   }
   return outside.isZero(0.0);
-}
-
-// B·M for a B with the zeros of the drift.
-template <int D>
-typename FixedStateSpaceFilter<D>::Matrix FixedStateSpaceFilter<D>::fromLeft(const Matrix& drift_like,
-                                                                             const Matrix& m) const {
-  Matrix product;
-  if (!has_pairs_) {
-    product.noalias() = drift_like * m;
-    return product;
-  }
-  for (Eigen::Index i = 0; i < D; i += 2) {
-    product.template middleRows<2>(i) = drift_like.template block<2, 2>(i, i).lazyProduct(m.template middleRows<2>(i));
-  }
-  return product;
 }
 
 template <int D>
@@ -154,45 +145,43 @@ typename FixedStateSpaceFilter<D>::Matrix FixedStateSpaceFilter<D>::transition(d
 }
 
 template <int D>
-typename FixedStateSpaceFilter<D>::Belief FixedStateSpaceFilter<D>::predicted(const Matrix& phi,
-                                                                              const Belief& belief) const {
-  Belief next;
-  next.mean = phi * belief.mean;
-  const Matrix half = fromLeft(phi, belief.reduction);
-  if (!has_pairs_) {
-    next.reduction.noalias() = half * phi.transpose();
-    return next;
+void FixedStateSpaceFilter<D>::predict(const Matrix& phi, Belief& belief) const {
+  belief.mean = phi.lazyProduct(belief.mean).eval();
+  if (has_pairs_) {
+    transformPairs(phi, belief.reduction);
+  } else {
+    belief.reduction = (phi * belief.reduction).eval() * phi.transpose();
   }
-  for (Eigen::Index i = 0; i < D; i += 2) {
-    next.reduction.template middleCols<2>(i) =
-        half.template middleCols<2>(i).lazyProduct(phi.template block<2, 2>(i, i).transpose());
-  }
-  return next;
 }
 
 template <int D>
-void FixedStateSpaceFilter<D>::predictSensitivities(const Matrix& phi, double interval_s,
-                                                    const Belief& predicted_belief) {
+void FixedStateSpaceFilter<D>::predictSensitivities(const Matrix& phi, double interval_s) {
   for (Belief& sensitivity : sensitivities_) {
-    sensitivity = predicted(phi, sensitivity);
+    predict(phi, sensitivity);
   }
   for (std::size_t c = 0; c < components_.size(); ++c) {
-    if (!components_[c].has_length_scale) {
+    const MarkovComponent& component = components_[c];
+    if (!component.has_length_scale) {
       continue;
     }
     // ∂Φ/∂log ℓ = −τ F Φ
-    Belief& sensitivity = sensitivities_[static_cast<std::size_t>(components_[c].first_parameter + 1)];
-    const Matrix rate = -components_[c].tau(interval_s) * blocks_[c].drift;
-    const Matrix change = fromLeft(rate, predicted_belief.reduction);
-    sensitivity.mean += rate * predicted_belief.mean;
-    sensitivity.reduction += change + change.transpose();
+    Belief& sensitivity = sensitivities_[static_cast<std::size_t>(component.first_parameter + 1)];
+    const Matrix rate = -component.tau(interval_s) * blocks_[c].drift;
+    sensitivity.mean += rate.lazyProduct(belief_.mean);
+    if (has_pairs_) {
+      addRateOfPairs(rate, belief_.reduction, component.first_state,
+                     component.first_state + component.shape.dimension(), sensitivity.reduction);
+    } else {
+      const Matrix change = rate * belief_.reduction;
+      sensitivity.reduction += change + change.transpose();
+    }
   }
 }
 
 template <int D>
 typename FixedStateSpaceFilter<D>::Innovation FixedStateSpaceFilter<D>::innovate(double time, double value) const {
   Innovation innovation;
-  innovation.gain = belief_.reduction * output_;
+  innovation.gain = belief_.reduction.lazyProduct(output_);
   for (std::size_t c = 0; c < components_.size(); ++c) {
     innovation.gain += components_[c].priorVariance(time) * blocks_[c].unit_gain;
   }
@@ -208,26 +197,30 @@ template <int D>
 void FixedStateSpaceFilter<D>::updateBelief(const Innovation& innovation) {
   const Vector scaled = innovation.gain / innovation.variance;
   belief_.mean += scaled * innovation.value;
-  belief_.reduction.noalias() -= scaled * innovation.gain.transpose();
+  belief_.reduction -= scaled.lazyProduct(innovation.gain.transpose());
 }
 
 // Derivatives of updateBelief() and of the likelihood of one sample.
 template <int D>
-void FixedStateSpaceFilter<D>::updateSensitivities(const Innovation& innovation, double time,
+void FixedStateSpaceFilter<D>::updateSensitivities(const Innovation& innovation, double time, Eigen::Index sample,
                                                    Eigen::VectorXd& gradient) {
   const double inverse = 1.0 / innovation.variance;
   const Vector scaled = innovation.gain * inverse;
   const double whitened = innovation.value * inverse;
   const auto updateOne = [&](Eigen::Index parameter, const Vector& prior_gain) {
     Belief& sensitivity = sensitivities_[static_cast<std::size_t>(parameter)];
-    const Vector gain = sensitivity.reduction * output_ + prior_gain;
+    const Vector gain = sensitivity.reduction.lazyProduct(output_) + prior_gain;
     const double variance = output_.dot(gain);
     const double value = -output_.dot(sensitivity.mean);
     const Vector scaled_change = gain * inverse - scaled * (variance * inverse);
     sensitivity.mean += scaled_change * innovation.value + scaled * value;
-    const Matrix outer = gain * scaled.transpose();
-    sensitivity.reduction -= outer + outer.transpose() - (variance * scaled) * scaled.transpose();
+    const Vector half = gain - (0.5 * variance) * scaled;
+    for (Eigen::Index i = 0; i < D; ++i) {
+      sensitivity.reduction.col(i) -= half * scaled(i) + scaled * half(i);
+    }
     gradient(parameter) += 0.5 * variance * (inverse - whitened * whitened) + whitened * value;
+    whitened_(2 * sample, parameter) = std::sqrt(0.5) * inverse * variance;
+    whitened_(2 * sample + 1, parameter) = std::sqrt(inverse) * value;
   };
   for (std::size_t c = 0; c < components_.size(); ++c) {
     updateOne(components_[c].first_parameter, components_[c].priorVariance(time) * blocks_[c].unit_gain);
@@ -244,20 +237,20 @@ double FixedStateSpaceFilter<D>::run(const Eigen::VectorXd& times, const Eigen::
   if (gradient != nullptr) {
     sensitivities_.assign(static_cast<std::size_t>(parameter_count_ - 1), Belief());
     gradient->setZero(parameter_count_);
+    whitened_.resize(2 * times.size(), parameter_count_);
   }
   double log_variances = 0.0;
   double chi_square = 0.0;
   for (Eigen::Index k = 0; k < times.size(); ++k) {
     const double interval_s = k == 0 ? 0.0 : times(k) - times(k - 1);
     const Matrix phi = transition(interval_s);
-    const Belief next = predicted(phi, belief_);
+    predict(phi, belief_);
     if (gradient != nullptr) {
-      predictSensitivities(phi, interval_s, next);
+      predictSensitivities(phi, interval_s);
     }
-    belief_ = next;
     const Innovation innovation = innovate(times(k), values(k));
     if (gradient != nullptr) {
-      updateSensitivities(innovation, times(k), *gradient);
+      updateSensitivities(innovation, times(k), k, *gradient);
     }
     updateBelief(innovation);
     log_variances += std::log(innovation.variance);
@@ -265,19 +258,14 @@ double FixedStateSpaceFilter<D>::run(const Eigen::VectorXd& times, const Eigen::
   }
   const auto count = static_cast<double>(times.size());
   if (gradient != nullptr) {
-    // Scaling all variances together scales the covariance, whose derivative is known; the noise is what remains.
-    double of_components = 0.0;
-    for (const MarkovComponent& component : components_) {
-      of_components += (*gradient)(component.first_parameter);
-    }
-    (*gradient)(parameter_count_ - 1) = 0.5 * (count - chi_square) - of_components;
+    addNoise(count - chi_square, *gradient);
   }
   return 0.5 * (log_variances + chi_square + count * std::log(2.0 * kPi));
 }
 
 template <int D>
 typename FixedStateSpaceFilter<D>::Vector FixedStateSpaceFilter<D>::outputAfter(double interval_s) const {
-  return transition(interval_s).transpose() * output_;
+  return transition(interval_s).transpose().lazyProduct(output_);
 }
 
 template <int D>
@@ -286,7 +274,7 @@ LatentPrediction FixedStateSpaceFilter<D>::predict(double last_time, const Eigen
   for (Eigen::Index i = 0; i < times.size(); ++i) {
     const Vector output = outputAfter(times(i) - last_time);
     prediction.mean(i) = output.dot(belief_.mean);
-    prediction.variance(i) = std::max(0.0, priorVariance(times(i)) + output.dot(belief_.reduction * output));
+    prediction.variance(i) = std::max(0.0, priorVariance(times(i)) + output.dot(belief_.reduction.lazyProduct(output)));
   }
   return prediction;
 }

@@ -61,6 +61,22 @@ void StateSpaceFilter::setLogParameters(const Eigen::VectorXd& log_parameters) {
   noise_variance_ = std::exp(log_parameters(parameter_count_ - 1));
 }
 
+// Scaling all variances together scales the covariance, whose derivative is known: S changes by itself, innovations not
+// at all. The noise is what the components leave of that.
+void StateSpaceFilter::addNoise(double count_less_chi_square, Eigen::VectorXd& gradient) {
+  const Eigen::Index noise = parameter_count_ - 1;
+  const Eigen::Index samples = whitened_.rows() / 2;
+  gradient(noise) = 0.5 * count_less_chi_square;
+  for (Eigen::Index k = 0; k < samples; ++k) {
+    whitened_(2 * k, noise) = std::sqrt(0.5);
+    whitened_(2 * k + 1, noise) = 0.0;
+  }
+  for (const MarkovComponent& component : components_) {
+    gradient(noise) -= gradient(component.first_parameter);
+    whitened_.col(noise) -= whitened_.col(component.first_parameter);
+  }
+}
+
 double StateSpaceFilter::priorVariance(double time) const {
   double variance = 0.0;
   for (const MarkovComponent& component : components_) {
@@ -96,6 +112,12 @@ double StateSpaceGaussianProcess::negativeLogLikelihood(const Eigen::VectorXd& l
   conditioned_ = false;
   filter_->setLogParameters(log_parameters);
   return filter_->run(times_, values_, gradient);
+}
+
+Eigen::MatrixXd StateSpaceGaussianProcess::information(const Eigen::VectorXd& log_parameters) {
+  Eigen::VectorXd gradient;
+  negativeLogLikelihood(log_parameters, &gradient);
+  return filter_->information();
 }
 
 double StateSpaceGaussianProcess::condition(const Eigen::VectorXd& log_parameters) {

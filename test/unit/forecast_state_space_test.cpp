@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -145,6 +147,45 @@ TEST(StateSpaceGaussianProcess, StaysExactOverThousandsOfSamplesAndAFarOrigin) {
   const double expected = dense.negativeLogLikelihood(theta, &dense_gradient);
   EXPECT_NEAR(markov.negativeLogLikelihood(theta, &markov_gradient), expected, 1e-9 * std::abs(expected));
   EXPECT_LT((markov_gradient - dense_gradient).cwiseAbs().maxCoeff(), 1e-9 * dense_gradient.cwiseAbs().maxCoeff());
+}
+
+TEST(StateSpaceGaussianProcess, InformationIsThatOfTheDenseFormOnAverage) {
+  // Over samples of the process itself: ½ tr(K⁻¹ ∂K/∂θ_p K⁻¹ ∂K/∂θ_q).
+  constexpr Eigen::Index kSamples = 100;
+  constexpr int kDraws = 100;
+  const LatentModel model = latentModelByName("matern_bias");
+  const Eigen::VectorXd theta = typicalParameters(model);
+  const Eigen::VectorXd times = gappyTimes(kSamples);
+  const KernelPtr kernel = makeKernel(model);
+  kernel->setLogParameters(theta.head(theta.size() - 1));
+  std::vector<Eigen::MatrixXd> by_parameter(4, Eigen::MatrixXd(kSamples, kSamples));
+  Eigen::MatrixXd covariance(kSamples, kSamples);
+  for (Eigen::Index j = 0; j < kSamples; ++j) {
+    Eigen::MatrixXd derivatives(kSamples, 3);
+    kernel->columnWithDerivatives(times, times(j), covariance.col(j), derivatives);
+    for (std::size_t p = 0; p < 3; ++p) {
+      by_parameter[p].col(j) = derivatives.col(static_cast<Eigen::Index>(p));
+    }
+  }
+  by_parameter[3] = std::exp(theta(3)) * Eigen::MatrixXd::Identity(kSamples, kSamples);
+  covariance += by_parameter[3];
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(covariance);
+  const Eigen::MatrixXd root = cholesky.matrixL();
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  StateSpaceGaussianProcess markov(model);
+  Eigen::MatrixXd information = Eigen::MatrixXd::Zero(4, 4);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    markov.setSamples(times, root * Eigen::VectorXd::NullaryExpr(kSamples, [&] { return normal(generator); }));
+    information += markov.information(theta) / kDraws;
+  }
+  for (Eigen::Index p = 0; p < 4; ++p) {
+    for (Eigen::Index q = 0; q < 4; ++q) {
+      const auto of = [&](Eigen::Index i) { return cholesky.solve(by_parameter[static_cast<std::size_t>(i)]).eval(); };
+      const auto expected = [&](Eigen::Index i, Eigen::Index j) { return 0.5 * (of(i) * of(j)).trace(); };
+      EXPECT_NEAR(information(p, q), expected(p, q), 0.1 * std::sqrt(expected(p, p) * expected(q, q))) << p << " " << q;
+    }
+  }
 }
 
 TEST(StateSpaceGaussianProcess, RefusesWhatItCannotDo) {

@@ -32,7 +32,7 @@ class MarkovShape {
   /// h.
   const Eigen::VectorXd& output() const { return output_; }
 
-  /// phi = e^{F tau} for tau ≥ 0.
+  /// phi = e^{F tau} for tau ≥ 0; phi must be zero before, what is zero in every e^{F tau} is not written.
   void transition(double tau, Eigen::Ref<Eigen::MatrixXd> phi) const;
 
   /// hᵀ e^{F tau} P∞ h for tau ≥ 0: the correlation that the state really has.

@@ -30,6 +30,11 @@ class StateSpaceGaussianProcess : public GaussianProcess {
   void setSamples(const Eigen::VectorXd& times, const Eigen::VectorXd& values) override;
   double negativeLogLikelihood(const Eigen::VectorXd& log_parameters, Eigen::VectorXd* gradient) override;
   double condition(const Eigen::VectorXd& log_parameters) override;
+  /// About the second derivatives of −log p by the log hyperparameters, from first ones alone: with S the variance of
+  /// an innovation v, Σ ½ ∂S ∂Sᵀ/S² + ∂v ∂vᵀ/S. Positive semidefinite, and Fisher's information on average (A. Harvey,
+  /// Forecasting, Structural Time Series Models and the Kalman Filter, 1989, 3.4.69). What was conditioned before is
+  /// lost.
+  Eigen::MatrixXd information(const Eigen::VectorXd& log_parameters);
   /// Throws std::invalid_argument for a time before the last sample.
   LatentPrediction predict(const Eigen::VectorXd& times) const override;
   /// Throws std::invalid_argument for a time before the last sample.
