@@ -7,13 +7,24 @@
 #include <utility>
 
 #include "slipnav/forecast/dense_gaussian_process.h"
-#include "slipnav/forecast/state_space_gaussian_process.h"
 
 namespace slipnav {
 namespace {
 
 // Length scales from which a cold fit starts, over the mean of the prior.
 constexpr std::array<double, 3> kColdStarts = {1.0, 0.3, 3.0};
+
+SlipFitStatus statusOf(FitOutcome outcome) {
+  switch (outcome) {
+    case FitOutcome::kConverged:
+      return SlipFitStatus::kConverged;
+    case FitOutcome::kBudgetSpent:
+      return SlipFitStatus::kNotConverged;
+    case FitOutcome::kFailed:
+      break;
+  }
+  return SlipFitStatus::kDefaults;
+}
 
 }  // namespace
 
@@ -45,7 +56,7 @@ std::unique_ptr<GaussianProcess> makeGaussianProcess(const std::string& model, c
 GaussianProcessSlipModel::GaussianProcessSlipModel(const SlipModelParameters& parameters)
     : GaussianProcessSlipModel(parameters, makeGaussianProcess(parameters.model, parameters.inference)) {
   if (parameters.inference == "dense") {
-    scout_ = makeGaussianProcess(parameters.model, "state_space");
+    scout_ = std::make_unique<StateSpaceGaussianProcess>(latent_);
   }
 }
 
@@ -103,7 +114,8 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::search(const SlipWind
   Choice choice = fitFrom(searched, priors, startPoints(searched, priors, evaluations));
   evaluations += choice.evaluations;
   if (scout_) {
-    choice = fitFrom(*process_, priors, {choice.log_parameters});
+    choice = choice.status == SlipFitStatus::kDefaults ? fitFrom(*process_, priors, {choice.log_parameters})
+                                                       : refine(priors, choice.log_parameters);
     evaluations += choice.evaluations;
   }
   choice.evaluations = evaluations;
@@ -123,10 +135,23 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::fitFrom(GaussianProce
     if (fit.outcome != FitOutcome::kFailed && fit.objective < best) {
       best = fit.objective;
       choice.log_parameters = fit.log_parameters;
-      choice.status = fit.outcome == FitOutcome::kConverged ? SlipFitStatus::kConverged : SlipFitStatus::kNotConverged;
+      choice.status = statusOf(fit.outcome);
     }
   }
   return choice;
+}
+
+// From where the scout has ended, with its curvature and that of the priors.
+GaussianProcessSlipModel::Choice GaussianProcessSlipModel::refine(const std::vector<LogPrior>& priors,
+                                                                  const Eigen::VectorXd& start) {
+  Eigen::MatrixXd curvature = scout_->information(start);
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const double stddev = priors[static_cast<std::size_t>(i)].stddev;
+    curvature(i, i) += 1.0 / (stddev * stddev);
+  }
+  const HyperparameterFit fit =
+      refineHyperparameters(*process_, priors, start, curvature, {parameters_.max_evaluations, parameters_.tolerance});
+  return {statusOf(fit.outcome), fit.log_parameters, fit.evaluations + 1};
 }
 
 // All cold starts; after a good fit the best of its hyperparameters and of the cold starts.

@@ -99,6 +99,126 @@ FitOutcome minimize(Objective& objective, std::size_t dimension, const FitSettin
   }
 }
 
+/// Newton steps within bounds with a curvature that they correct.
+class NewtonSearch {
+ public:
+  NewtonSearch(GaussianProcess& process, const std::vector<LogPrior>& priors, const Eigen::VectorXd& start,
+               const Eigen::MatrixXd& curvature)
+      : process_(process),
+        priors_(priors),
+        best_(start),
+        gradient_(Eigen::VectorXd::Zero(start.size())),
+        curvature_(curvature) {}
+
+  FitOutcome run(const FitSettings& settings) {
+    try {
+      best_value_ = evaluate(best_, gradient_);
+      for (;;) {
+        const Eigen::VectorXd step = boundedStep();
+        if (-(gradient_.dot(step) + 0.5 * step.dot(curvature_ * step)) < settings.tolerance) {
+          return FitOutcome::kConverged;
+        }
+        if (evaluations_ >= settings.max_evaluations) {
+          return FitOutcome::kBudgetSpent;
+        }
+        tryStep(step);
+      }
+    } catch (const std::exception&) {
+      return FitOutcome::kFailed;
+    }
+  }
+
+  const Eigen::VectorXd& best() const { return best_; }
+  double bestValue() const { return best_value_; }
+  int evaluations() const { return evaluations_; }
+
+ private:
+  double evaluate(const Eigen::VectorXd& point, Eigen::VectorXd& gradient) {
+    ++evaluations_;
+    const double value = negativeLogPosterior(process_, priors_, point, &gradient);
+    if (!std::isfinite(value)) {
+      throw std::runtime_error("hyperparameter fit: the likelihood is not finite");
+    }
+    return value;
+  }
+
+  // The minimum of the quadratic model within the bounds and not too far away, one coordinate after the other until
+  // none moves.
+  Eigen::VectorXd boundedStep() const {
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(best_.size());
+    double largest_move = kStandstill;
+    for (int sweep = 0; sweep < kMaxSweeps && largest_move >= kStandstill; ++sweep) {
+      largest_move = 0.0;
+      for (Eigen::Index i = 0; i < step.size(); ++i) {
+        const LogPrior& bounds = priors_[static_cast<std::size_t>(i)];
+        const double free = step(i) - (gradient_(i) + curvature_.row(i).dot(step)) / curvature_(i, i);
+        const double next = std::clamp(free, std::max(-kLongestStep, bounds.lower - best_(i)),
+                                       std::min(kLongestStep, bounds.upper - best_(i)));
+        largest_move = std::max(largest_move, std::abs(next - step(i)));
+        step(i) = next;
+      }
+    }
+    return step;
+  }
+
+  // Takes the step if it gains; in any case it tells the curvature along it.
+  void tryStep(const Eigen::VectorXd& step) {
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(step.size());
+    const double value = evaluate(best_ + step, gradient);
+    const Eigen::VectorXd expected = curvature_ * step;
+    Eigen::VectorXd change = gradient - gradient_;
+    const double least = kLeastCurvature * step.dot(expected);
+    if (step.dot(change) < least) {  // keeps it positive definite
+      const double share = (step.dot(expected) - least) / (step.dot(expected) - step.dot(change));
+      change = share * change + (1.0 - share) * expected;
+    }
+    curvature_ += change * change.transpose() / step.dot(change) - expected * expected.transpose() / step.dot(expected);
+    if (value < best_value_) {
+      best_value_ = value;
+      best_ += step;
+      gradient_ = gradient;
+    } else {
+      curvature_ *= kShorter;
+    }
+  }
+
+  static constexpr int kMaxSweeps = 1000;
+  static constexpr double kStandstill = 1e-9;
+  static constexpr double kLongestStep = 0.5;     // of a logarithm: farther away the curvature is another
+  static constexpr double kLeastCurvature = 0.2;  // of the expected one
+  static constexpr double kShorter = 2.0;
+
+  GaussianProcess& process_;
+  const std::vector<LogPrior>& priors_;
+  Eigen::VectorXd best_;
+  Eigen::VectorXd gradient_;
+  Eigen::MatrixXd curvature_;
+  double best_value_ = std::numeric_limits<double>::infinity();
+  int evaluations_ = 0;
+};
+
+void requireOneEach(const GaussianProcess& process, const std::vector<LogPrior>& priors, const Eigen::VectorXd& start) {
+  if (start.size() != process.parameterCount() || static_cast<std::size_t>(start.size()) != priors.size()) {
+    throw std::invalid_argument("hyperparameter fit: start and priors must have one entry per hyperparameter");
+  }
+}
+
+HyperparameterFit makeFit(FitOutcome outcome, const Eigen::VectorXd& start, const Eigen::VectorXd& best,
+                          double best_value, int evaluations, const std::vector<LogPrior>& priors) {
+  HyperparameterFit fit;
+  fit.outcome = outcome;
+  fit.evaluations = evaluations;
+  fit.log_parameters = outcome == FitOutcome::kFailed ? start : best;
+  fit.objective = best_value;
+  fit.negative_log_likelihood = fit.objective;
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const LogPrior& prior = priors[static_cast<std::size_t>(i)];
+    const double whitened = (fit.log_parameters(i) - prior.mean) / prior.stddev;
+    fit.negative_log_likelihood -= 0.5 * whitened * whitened;
+  }
+  return fit;
+}
+
 }  // namespace
 
 Eigen::VectorXd clampToBounds(const Eigen::VectorXd& start, const std::vector<LogPrior>& priors) {
@@ -126,23 +246,21 @@ double negativeLogPosterior(GaussianProcess& process, const std::vector<LogPrior
 
 HyperparameterFit fitHyperparameters(GaussianProcess& process, const std::vector<LogPrior>& priors,
                                      const Eigen::VectorXd& start, const FitSettings& settings) {
-  if (start.size() != process.parameterCount() || static_cast<std::size_t>(start.size()) != priors.size()) {
-    throw std::invalid_argument("hyperparameter fit: start and priors must have one entry per hyperparameter");
-  }
+  requireOneEach(process, priors, start);
   const Eigen::VectorXd clamped = clampToBounds(start, priors);
   Objective objective(process, priors, clamped);
-  HyperparameterFit fit;
-  fit.outcome = minimize(objective, priors.size(), settings);
-  fit.evaluations = objective.evaluations();
-  fit.log_parameters = fit.outcome == FitOutcome::kFailed ? clamped : objective.best();
-  fit.objective = objective.bestValue();
-  fit.negative_log_likelihood = fit.objective;
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    const LogPrior& prior = priors[static_cast<std::size_t>(i)];
-    const double whitened = (fit.log_parameters(i) - prior.mean) / prior.stddev;
-    fit.negative_log_likelihood -= 0.5 * whitened * whitened;
-  }
-  return fit;
+  const FitOutcome outcome = minimize(objective, priors.size(), settings);
+  return makeFit(outcome, clamped, objective.best(), objective.bestValue(), objective.evaluations(), priors);
+}
+
+HyperparameterFit refineHyperparameters(GaussianProcess& process, const std::vector<LogPrior>& priors,
+                                        const Eigen::VectorXd& start, const Eigen::MatrixXd& curvature,
+                                        const FitSettings& settings) {
+  requireOneEach(process, priors, start);
+  const Eigen::VectorXd clamped = clampToBounds(start, priors);
+  NewtonSearch search(process, priors, clamped, curvature);
+  const FitOutcome outcome = search.run(settings);
+  return makeFit(outcome, clamped, search.best(), search.bestValue(), search.evaluations(), priors);
 }
 
 }  // namespace slipnav

@@ -13,6 +13,7 @@
 #include "slipnav/forecast/hyperparameter_prior.h"
 #include "slipnav/forecast/latent_model.h"
 #include "slipnav/forecast/slip_window.h"
+#include "slipnav/forecast/state_space_gaussian_process.h"
 #include "support/gp_golden.h"
 
 namespace slipnav {
@@ -176,6 +177,59 @@ TEST(HyperparameterFit, BudgetIsKeptAndSaid) {
   EXPECT_LE(fit.objective, negativeLogPosterior(paper.process, paper.priors, start, nullptr));
 }
 
+/// Curvature of the recorded window's posterior, from the state-space form.
+Eigen::MatrixXd curvatureAt(const PaperFit& paper, const Eigen::VectorXd& theta) {
+  const SlipWindow window = makeSlipWindow(readGpSlip());
+  StateSpaceGaussianProcess markov(paper.model);
+  markov.setSamples(window.times, window.slips);
+  Eigen::MatrixXd curvature = markov.information(theta);
+  for (Eigen::Index i = 0; i < theta.size(); ++i) {
+    const double stddev = paper.priors[static_cast<std::size_t>(i)].stddev;
+    curvature(i, i) += 1.0 / (stddev * stddev);
+  }
+  return curvature;
+}
+
+TEST(HyperparameterFit, RefinementFindsTheOptimumOfALongFitInFewEvaluations) {
+  PaperFit paper(std::nullopt);
+  const HyperparameterFit best =
+      fitHyperparameters(paper.process, paper.priors, startPoint(paper.model, paper.priors, 1.0), {500, 1e-9});
+  for (const double off : {-0.4, 0.1, 0.4}) {
+    const Eigen::VectorXd start = best.log_parameters.array() + off;
+    const HyperparameterFit fit =
+        refineHyperparameters(paper.process, paper.priors, start, curvatureAt(paper, start), {60, 1e-3});
+    EXPECT_EQ(fit.outcome, FitOutcome::kConverged) << off;
+    EXPECT_NEAR(fit.objective, best.objective, 3e-3) << off;
+    EXPECT_LE(fit.evaluations, 6) << off;
+    EXPECT_DOUBLE_EQ(fit.negative_log_likelihood, paper.process.negativeLogLikelihood(fit.log_parameters, nullptr));
+  }
+}
+
+TEST(HyperparameterFit, RefinementRecoversFromAWrongCurvature) {
+  PaperFit paper(std::nullopt);
+  const Eigen::VectorXd start = startPoint(paper.model, paper.priors, 1.0);
+  for (const double factor : {0.1, 10.0}) {
+    const HyperparameterFit fit =
+        refineHyperparameters(paper.process, paper.priors, start, factor * curvatureAt(paper, start), {60, 1e-4});
+    EXPECT_EQ(fit.outcome, FitOutcome::kConverged) << factor;
+    EXPECT_NEAR(fit.negative_log_likelihood, -212.90, 0.02) << factor;
+  }
+}
+
+TEST(HyperparameterFit, RefinementStaysInBoundsAndBudget) {
+  PaperFit paper(std::nullopt);
+  paper.priors[1].lower = std::log(2.0);  // the optimum of 1.0 is outside now
+  const Eigen::VectorXd start = startPoint(paper.model, paper.priors, 3.0);
+  const Eigen::MatrixXd curvature = curvatureAt(paper, start);
+  const HyperparameterFit fit = refineHyperparameters(paper.process, paper.priors, start, curvature, {60, 1e-4});
+  const HyperparameterFit best = fitHyperparameters(paper.process, paper.priors, start, {500, 1e-9});
+  EXPECT_NEAR(std::exp(fit.log_parameters(1)), 2.0, 1e-9);
+  EXPECT_NEAR(fit.objective, best.objective, 1e-3);
+  const HyperparameterFit short_one = refineHyperparameters(paper.process, paper.priors, start, curvature, {1, 1e-4});
+  EXPECT_EQ(short_one.outcome, FitOutcome::kBudgetSpent);
+  EXPECT_EQ(short_one.evaluations, 1);
+}
+
 /// A regression whose likelihood breaks after some evaluations.
 class BreakingProcess : public GaussianProcess {
  public:
@@ -214,6 +268,11 @@ TEST(HyperparameterFit, ABreakingLikelihoodFailsAndReturnsTheStart) {
       const HyperparameterFit fit = fitHyperparameters(process, priors, start, kSettings);
       EXPECT_EQ(fit.outcome, FitOutcome::kFailed);
       EXPECT_EQ(fit.log_parameters, start);
+      BreakingProcess other(way, good);
+      const HyperparameterFit refined =
+          refineHyperparameters(other, priors, start, Eigen::MatrixXd::Identity(1, 1), kSettings);
+      EXPECT_EQ(refined.outcome, FitOutcome::kFailed);
+      EXPECT_EQ(refined.log_parameters, start);
     }
   }
 }

@@ -11,6 +11,7 @@
 #include "slipnav/forecast/hyperparameter_prior.h"
 #include "slipnav/forecast/latent_model.h"
 #include "slipnav/forecast/slip_model.h"
+#include "slipnav/forecast/state_space_gaussian_process.h"
 
 namespace slipnav {
 
@@ -38,7 +39,8 @@ class GaussianProcessSlipModel : public SlipModel {
 
   /// A cold fit starts from several length scales and takes the best end. A later one starts from the previous
   /// hyperparameters, unless the posterior of the new window is higher at one of the cold starts. For the dense
-  /// regression this search goes over its state-space form, which costs a tenth; the dense one fits from its end.
+  /// regression this search goes over its state-space form, which costs a tenth; the dense one is fitted from its end,
+  /// with the curvature that it has there.
   SlipFit fit(const SlipSamples& samples) override;
   bool isReady() const override { return current_.has_value(); }
   SlipPrediction predict(const Eigen::VectorXd& times_s) const override;
@@ -65,6 +67,7 @@ class GaussianProcessSlipModel : public SlipModel {
                                            int& evaluations) const;
   Choice fitFrom(GaussianProcess& process, const std::vector<LogPrior>& priors,
                  const std::vector<Eigen::VectorXd>& starts) const;
+  Choice refine(const std::vector<LogPrior>& priors, const Eigen::VectorXd& start);
   bool adopt(const SlipWindow& window, const Eigen::VectorXd& log_parameters);
   SlipFit report(const SlipWindow& window, SlipFitStatus status, int evaluations) const;
   Eigen::VectorXd sinceOrigin(const Eigen::VectorXd& times_s) const;
@@ -72,7 +75,7 @@ class GaussianProcessSlipModel : public SlipModel {
   SlipModelParameters parameters_;
   LatentModel latent_;
   std::unique_ptr<GaussianProcess> process_;
-  std::unique_ptr<GaussianProcess> scout_;  ///< cheaper form for the search, where there is one
+  std::unique_ptr<StateSpaceGaussianProcess> scout_;  ///< cheaper form for the search, where there is one
   std::optional<Conditioned> current_;
   std::optional<Eigen::VectorXd> last_good_;  ///< hyperparameters of the last fit that ended well
 };

@@ -56,4 +56,12 @@ double negativeLogPosterior(GaussianProcess& process, const std::vector<LogPrior
 HyperparameterFit fitHyperparameters(GaussianProcess& process, const std::vector<LogPrior>& priors,
                                      const Eigen::VectorXd& start, const FitSettings& settings);
 
+/// Local fit for an expensive likelihood, from a start near its end with the curvature there: the second derivatives of
+/// −log posterior, positive definite and about right, as a cheaper form of the process has them. Newton steps within
+/// the bounds; each corrects the curvature (BFGS; J. Nocedal, S. Wright, Numerical Optimization, 2006, procedure 18.2).
+/// Ends where the next step promises to gain less than the tolerance. Fails and throws as fitHyperparameters() does.
+HyperparameterFit refineHyperparameters(GaussianProcess& process, const std::vector<LogPrior>& priors,
+                                        const Eigen::VectorXd& start, const Eigen::MatrixXd& curvature,
+                                        const FitSettings& settings);
+
 }  // namespace slipnav
