@@ -1,15 +1,13 @@
 #include "slipnav/ros/bag_reader.h"
 
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <stdexcept>
 
+#include "slipnav/ros/bag_file.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/extrinsics.h"
 #include "slipnav/ros/wheel_input.h"
@@ -22,34 +20,26 @@ std::string bare(const std::string& topic) {
   return topic.substr(std::min(topic.find_first_not_of('/'), topic.size()));
 }
 
+/// No recording is longer than ROS can count seconds.
+Nanoseconds span(double duration_s) { return fromSeconds(std::clamp(duration_s, 0.0, 4294967295.0)); }
+
 template <class Message>
 std::string typeName() {
   return ros::message_traits::datatype<Message>();
 }
 
-void open(const std::string& path, rosbag::Bag& bag) {
-  if (!std::ifstream(path)) {
-    throw std::invalid_argument(path + ": cannot be read");
-  }
-  try {
-    bag.open(path, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw std::invalid_argument(path + ": has no index, the recording was cut off; rosbag reindex may mend it");
-  } catch (const std::exception& error) {
-    throw std::invalid_argument(path + ": is not a complete bag: " + error.what());
-  }
-}
-
 }  // namespace
 
 struct BagReader::Parts {
+  Parts(const std::string& file, Config configuration) : path(file), config(std::move(configuration)), bag(file) {}
+
   std::string path;
   Config config;
-  mutable rosbag::Bag bag;
+  BagFile bag;
   std::map<std::string, std::string> types;  ///< of each topic, by its bare name
   std::string truth_topic;                   ///< bare; "" when there is none
-  ros::Time begin;
-  ros::Time end;
+  Nanoseconds begin = 0;
+  Nanoseconds end = 0;
 
   [[noreturn]] void fail(const std::string& what) const { throw std::invalid_argument(path + ": " + what); }
 
@@ -76,20 +66,20 @@ struct BagReader::Parts {
   }
 
   void scan(const BagRange& range) {
-    rosbag::View all(bag);
-    if (all.size() == 0) {
+    const std::vector<BagEntry>& all = bag.entries();
+    if (all.empty()) {
       fail("has no messages");
     }
-    begin = all.getBeginTime() + ros::Duration(range.start_s);
-    end = all.getEndTime();
+    begin = all.front().time + span(range.start_s);
+    end = all.back().time;
     if (range.duration_s > 0.0) {
-      end = std::min(end, begin + ros::Duration(range.duration_s));
+      end = std::min(end, begin + span(range.duration_s));
     }
     if (end < begin) {
       fail("is shorter than " + std::to_string(range.start_s) + " s");
     }
-    for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-      types[bare(connection->topic)] = connection->datatype;
+    for (const auto& [id, connection] : bag.connections()) {
+      types[bare(connection.topic)] = connection.type;
     }
   }
 
@@ -140,10 +130,12 @@ struct BagReader::Parts {
 
   void takeExtrinsicsFromBag() {
     tf2::BufferCore buffer;
-    for (const rosbag::MessageInstance& instance :
-         rosbag::View(bag, rosbag::TopicQuery(std::vector<std::string>{"/tf_static", "tf_static"}))) {
-      const tf2_msgs::TFMessage::ConstPtr message = instance.instantiate<tf2_msgs::TFMessage>();
-      for (const geometry_msgs::TransformStamped& transform : message->transforms) {
+    for (const BagEntry& entry : bag.entries()) {
+      if (bare(bag.connection(entry).topic) != "tf_static") {
+        continue;
+      }
+      const auto message = bag.read<tf2_msgs::TFMessage>(entry);
+      for (const geometry_msgs::TransformStamped& transform : message.transforms) {
         buffer.setTransform(transform, path, true);
       }
     }
@@ -153,50 +145,46 @@ struct BagReader::Parts {
     }
   }
 
-  void dispatchTruth(const rosbag::MessageInstance& instance, const BagSink& sink) const {
-    if (const auto fix = instance.instantiate<sensor_msgs::NavSatFix>()) {
-      if (const std::optional<GnssFix> converted = toGnssFix(*fix)) {
-        sink.truth_fix(*converted);
+  void dispatchTruth(const BagEntry& entry, const BagSink& sink) {
+    if (bag.holds<sensor_msgs::NavSatFix>(entry)) {
+      if (const std::optional<GnssFix> fix = toGnssFix(bag.read<sensor_msgs::NavSatFix>(entry))) {
+        sink.truth_fix(*fix);
       }
       return;
     }
-    std::optional<TruthSample> pose;
-    if (const auto odometry = instance.instantiate<nav_msgs::Odometry>()) {
-      pose = toTruthSample(*odometry);
-    } else if (const auto stamped = instance.instantiate<geometry_msgs::PoseStamped>()) {
-      pose = toTruthSample(*stamped);
-    }
+    const std::optional<TruthSample> pose = bag.holds<nav_msgs::Odometry>(entry)
+                                                ? toTruthSample(bag.read<nav_msgs::Odometry>(entry))
+                                                : toTruthSample(bag.read<geometry_msgs::PoseStamped>(entry));
     if (pose) {
       sink.truth_pose(*pose);
     }
   }
 
   /// The state of the IMU at a truth message, and whether its attitude is known; nothing when it cannot be used.
-  std::optional<std::pair<NavigationState, bool>> truthStart(const rosbag::MessageInstance& instance) const {
-    if (const auto fix = instance.instantiate<sensor_msgs::NavSatFix>()) {
-      const std::optional<GnssFix> converted = toGnssFix(*fix);
-      if (!converted) {
+  std::optional<std::pair<NavigationState, bool>> truthStart(const BagEntry& entry) {
+    if (bag.holds<sensor_msgs::NavSatFix>(entry)) {
+      const std::optional<GnssFix> fix = toGnssFix(bag.read<sensor_msgs::NavSatFix>(entry));
+      if (!fix) {
         return std::nullopt;
       }
       NavigationState state;
-      state.stamp = converted->stamp;
-      state.position = toPositionFix(*converted).position;
+      state.stamp = fix->stamp;
+      state.position = toPositionFix(*fix).position;
       return std::pair(state, false);
     }
-    const auto odometry = instance.instantiate<nav_msgs::Odometry>();
-    if (!odometry || !toTruthSample(*odometry)) {
+    const auto odometry = bag.read<nav_msgs::Odometry>(entry);
+    if (!toTruthSample(odometry)) {
       return std::nullopt;
     }
     const InitializationParams& start = config.initialization;
     const LocalFrame frame(Planet::byName(config.planet),
                            {degToRad(start.latitude_deg), degToRad(start.longitude_deg), start.height_m});
-    return std::pair(toNavigationState(*odometry, frame, config.imu.mount.position_b()), true);
+    return std::pair(toNavigationState(odometry, frame, config.imu.mount.position_b()), true);
   }
 
   template <class Message>
-  static void dispatchWheels(const rosbag::MessageInstance& instance, WheelInput& wheels, const BagSink& sink) {
-    const auto message = instance.instantiate<Message>();
-    if (const std::optional<WheelMotion> motion = wheels.take(*message)) {
+  void dispatchWheels(const BagEntry& entry, WheelInput& wheels, const BagSink& sink) {
+    if (const std::optional<WheelMotion> motion = wheels.take(bag.read<Message>(entry))) {
       sink.wheels(*motion);
     } else if (!wheels.problem().empty()) {
       sink.problem(wheels.problem());
@@ -205,10 +193,7 @@ struct BagReader::Parts {
 };
 
 BagReader::BagReader(const std::string& path, const Config& config, const std::string& truth, const BagRange& range)
-    : parts_(std::make_unique<Parts>()) {
-  parts_->path = path;
-  parts_->config = config;
-  open(path, parts_->bag);
+    : parts_(std::make_unique<Parts>(path, config)) {
   parts_->scan(range);
   parts_->requireInputs();
   parts_->chooseTruth(truth);
@@ -228,40 +213,37 @@ bool BagReader::truthIsGeodetic() const {
   return parts_->truth_topic.empty() || parts_->typeOf(parts_->truth_topic) == typeName<sensor_msgs::NavSatFix>();
 }
 
-double BagReader::duration() const { return (parts_->end - parts_->begin).toSec(); }
+double BagReader::duration() const { return toSeconds(parts_->end - parts_->begin); }
 
 void BagReader::read(const BagSink& sink) const {
   const TopicNames& topics = parts_->config.topics;
   const ImuMount mount(parts_->config.imu.mount);
   WheelInput wheels(parts_->config);
   bool start_wanted = parts_->config.initialization.source == "truth";
-  try {
-    for (const rosbag::MessageInstance& instance : rosbag::View(parts_->bag, parts_->begin, parts_->end)) {
-      const std::string topic = bare(instance.getTopic());
-      if (topic == bare(topics.imu)) {
-        sink.imu(toImuSample(*instance.instantiate<sensor_msgs::Imu>(), mount));
-      } else if (topic == bare(topics.joint_states) && wheels.wantsJointStates()) {
-        Parts::dispatchWheels<sensor_msgs::JointState>(instance, wheels, sink);
-      } else if (topic == bare(topics.wheel_odometry) && wheels.wantsOdometry()) {
-        Parts::dispatchWheels<nav_msgs::Odometry>(instance, wheels, sink);
-      } else if (topic == bare(topics.gps_fix)) {
-        if (const std::optional<GnssFix> fix = toGnssFix(*instance.instantiate<sensor_msgs::NavSatFix>())) {
-          sink.fix(*fix);
-        }
-      }
-      if (topic == parts_->truth_topic) {  // may be one of the inputs, too
-        parts_->dispatchTruth(instance, sink);
-        const auto start = start_wanted ? parts_->truthStart(instance) : std::nullopt;
-        if (start) {
-          sink.truth_start(start->first, start->second);
-          start_wanted = false;
-        }
+  for (const BagEntry& entry : parts_->bag.entries()) {
+    if (entry.time < parts_->begin || entry.time > parts_->end) {
+      continue;
+    }
+    const std::string topic = bare(parts_->bag.connection(entry).topic);
+    if (topic == bare(topics.imu)) {
+      sink.imu(toImuSample(parts_->bag.read<sensor_msgs::Imu>(entry), mount));
+    } else if (topic == bare(topics.joint_states) && wheels.wantsJointStates()) {
+      parts_->dispatchWheels<sensor_msgs::JointState>(entry, wheels, sink);
+    } else if (topic == bare(topics.wheel_odometry) && wheels.wantsOdometry()) {
+      parts_->dispatchWheels<nav_msgs::Odometry>(entry, wheels, sink);
+    } else if (topic == bare(topics.gps_fix)) {
+      if (const std::optional<GnssFix> fix = toGnssFix(parts_->bag.read<sensor_msgs::NavSatFix>(entry))) {
+        sink.fix(*fix);
       }
     }
-  } catch (const rosbag::BagException& error) {
-    parts_->fail(std::string("is damaged: ") + error.what());
-  } catch (const ros::serialization::StreamOverrunException& error) {
-    parts_->fail(std::string("is damaged: ") + error.what());
+    if (topic == parts_->truth_topic) {  // may be one of the inputs, too
+      parts_->dispatchTruth(entry, sink);
+      const auto start = start_wanted ? parts_->truthStart(entry) : std::nullopt;
+      if (start) {
+        sink.truth_start(start->first, start->second);
+        start_wanted = false;
+      }
+    }
   }
 }
 

@@ -1,8 +1,6 @@
 #include "slipnav/ros/replay_session.h"
 
 #include <ros/callback_queue.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 
 #include <algorithm>
 #include <optional>
@@ -10,6 +8,7 @@
 #include <stdexcept>
 
 #include "slipnav/config/text.h"
+#include "slipnav/ros/bag_file.h"
 #include "slipnav/ros/child_process.h"
 #include "slipnav/ros/internal_topics.h"
 
@@ -54,10 +53,10 @@ std::set<std::string> topicsWith(int kind) {
 }
 
 std::vector<std::string> recordedTopics(const std::string& path) {
-  rosbag::Bag bag(path);
+  const BagFile bag(path);
   std::set<std::string> topics;
-  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
-    topics.insert(connection->topic);
+  for (const auto& [id, connection] : bag.connections()) {
+    topics.insert(connection.topic);
   }
   return {topics.begin(), topics.end()};
 }
