@@ -1,5 +1,7 @@
-/// Recordings, through the offline pipeline and the calibration.
+/// Recordings, through the offline pipeline and the calibration. Estimates that come out must be finite.
 
+#include <algorithm>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "fuzz_target.h"
@@ -8,20 +10,35 @@
 
 namespace {
 
-slipnav::Config makeConfig() {
+slipnav::Config makeConfig(const std::string& extrinsics) {
   slipnav::Config config;
   config.initialization.source = "given";
   config.initialization.levelling_window_s = 0.5;
+  config.frames.extrinsics = extrinsics;
   return config;
+}
+
+const slipnav::Config& configFor(const std::string& recording) {
+  static const slipnav::Config by_parameters = makeConfig("parameters");
+  static const slipnav::Config by_tf = makeConfig("tf");
+  return recording.find("tf_static") == std::string::npos ? by_parameters : by_tf;
+}
+
+bool isFinite(const slipnav::EstimateSample& estimate) {
+  return estimate.position_enu_m.allFinite() && estimate.covariance_enu_m2.allFinite() &&
+         estimate.q_flu_to_enu.coeffs().allFinite();
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const slipnav::Config config = makeConfig();
+  const slipnav::Config& config = configFor(slipnav::fuzz::toText(data, size));
   const slipnav::fuzz::InputFile file(data, size);
   try {
-    slipnav::evaluateBag(file.path(), config, "", {});
+    const slipnav::EstimateTrack estimates = slipnav::evaluateBag(file.path(), config, "", {}).report.estimates;
+    if (!std::all_of(estimates.begin(), estimates.end(), isFinite)) {
+      std::abort();
+    }
     slipnav::calibrateBag(file.path(), config, "", {});
   } catch (const std::invalid_argument&) {  // not a recording that can be used
   } catch (const std::runtime_error&) {     // no start found

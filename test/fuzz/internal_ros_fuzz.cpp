@@ -26,10 +26,12 @@ namespace {
 
 using namespace slipnav;
 
+constexpr int kSamplesForForecast = 4;
+
 Config makeConfig() {
   Config config;
   config.stop.mode = "active";
-  config.forecast.slip.min_samples = 3;
+  config.forecast.slip.min_samples = kSamplesForForecast;
   config.forecast.horizon_s = 5.0;
   config.forecast.interval_s = 0.1;
   return config;
@@ -46,45 +48,44 @@ void require(bool holds) {
   }
 }
 
+/// One for all inputs, as it cannot be copied; each begins with a reset.
+Forecaster& forecaster() {
+  static Forecaster forecaster(Planet::byName(config().planet), config().navigation().filter, config().forecast);
+  return forecaster;
+}
+
 /// The engines behind the nodelets Ins, Filter, Forecast and StopSupervisor.
 class Engines {
  public:
   static constexpr int kTypes = 9;
 
   void handle(int type, fuzz::MessageReader& reader) {
-    now_s_ += 0.1;
     switch (type) {
       case 0:
-        use<StartState>(reader, [this](const StartState& m) { start(m); });
-        break;
+        return use<StartState>(reader);
       case 1:
-        use<InsSteps>(reader, [this](const InsSteps& m) { step(m); });
-        break;
+        return use<InsSteps>(reader);
       case 2:
-        use<FilterCorrection>(reader, [this](const FilterCorrection& m) { ins_.correct(fromMessage(m)); });
-        break;
+        return use<FilterCorrection>(reader);
       case 3:
-        use<ForecastInput>(reader, [this](const ForecastInput& m) { forecast(m); });
-        break;
+        return use<ForecastInput>(reader);
       case 4:
-        use<SetStateRequest>(reader, [this](const SetStateRequest& m) { place(m); });
-        break;
+        return use<SetStateRequest>(reader);
       case 5:
-        use<Slip>(reader, [this](const Slip& m) { observer_.add(m); });
-        break;
+        return use<Slip>(reader);
       case 6:
-        use<NavState>(reader, [this](const NavState& m) { gate_.push(observer_.observe(m), now_s_); });
-        break;
+        return use<NavState>(reader);
       case 7:
-        use<ErrorForecast>(reader, [this](const ErrorForecast& m) {
-          gate_.push(StopForecast{toNanoseconds(m.header.stamp), m.time_to_stop_s});
-          gate_.dealtWith(toNanoseconds(m.header.stamp));
-        });
-        break;
+        return use<ErrorForecast>(reader);
       default:
-        use<geometry_msgs::Twist>(reader, [this](const geometry_msgs::Twist& m) { command(m); });
-        break;
+        return use<geometry_msgs::Twist>(reader);
     }
+  }
+
+  template <class Message>
+  void receive(const Message& message) {
+    now_s_ += 0.1;
+    take(message);
     mechanise();
     gate_.release(
         now_s_, [this](const RoverObservation& observation) { supervisor_.observe(observation); },
@@ -92,14 +93,14 @@ class Engines {
   }
 
  private:
-  template <class Message, class Use>
-  static void use(fuzz::MessageReader& reader, const Use& use) {
+  template <class Message>
+  void use(fuzz::MessageReader& reader) {
     if (const std::optional<Message> message = reader.take<Message>()) {
-      use(*message);
+      receive(*message);
     }
   }
 
-  void start(const StartState& message) {
+  void take(const StartState& message) {
     const InitialState initial = fromMessage(message);
     frame_ = LocalFrame(planet_, initial.origin);
     gate_steps_.restart();
@@ -110,7 +111,7 @@ class Engines {
     started_ = true;
   }
 
-  void step(const InsSteps& message) {
+  void take(const InsSteps& message) {
     if (!started_) {
       return;
     }
@@ -118,6 +119,16 @@ class Engines {
       gate_steps_.push(fromMessage(interval, message.epoch), now_s_);
       look_ahead_.addStep(toNanoseconds(interval.state.stamp));
     }
+  }
+
+  void take(const FilterCorrection& message) { ins_.correct(fromMessage(message)); }
+  void take(const Slip& message) { observer_.add(message); }
+  void take(const NavState& message) { gate_.push(observer_.observe(message), now_s_); }
+
+  void take(const ErrorForecast& message) {
+    const Nanoseconds stamp = toNanoseconds(message.header.stamp);
+    gate_.push(StopForecast{stamp, message.time_to_stop_s});
+    gate_.dealtWith(stamp);
   }
 
   void mechanise() {
@@ -130,8 +141,8 @@ class Engines {
     static_cast<void>(look_ahead_.runUntil());
   }
 
-  void forecast(const ForecastInput& message) {
-    const std::optional<Forecast> forecast = forecaster_.push(estimateOf(message), covarianceOf(message));
+  void take(const ForecastInput& message) {
+    const std::optional<Forecast> forecast = forecaster().push(estimateOf(message), covarianceOf(message));
     if (forecast) {
       require(forecast->slip.mean.allFinite() && forecast->slip.stddev.allFinite());
       const std::vector<double>& bound = forecast->error.horizontal_bound_m;
@@ -140,7 +151,7 @@ class Engines {
     }
   }
 
-  void place(const SetStateRequest& message) {
+  void take(const SetStateRequest& message) {
     if (!started_) {
       return;
     }
@@ -150,7 +161,7 @@ class Engines {
     }
   }
 
-  void command(const geometry_msgs::Twist& message) {
+  void take(const geometry_msgs::Twist& message) {
     const VelocityCommand out = supervisor_.command(toVelocityCommand(message));
     require(out.isFinite());
     require(!std::isnan(supervisor_.status().time_left_s));
@@ -162,7 +173,6 @@ class Engines {
   FilterEngine filter_{planet_, config().navigation().filter};
   StepGate gate_steps_{config().filter.max_wait_s};
   LookAhead look_ahead_{config().filter.max_wait_s};
-  Forecaster forecaster_{planet_, config().navigation().filter, config().forecast};
   RoverObserver observer_{config().stationary.wheel_speed_mps};
   ForecastGate gate_;
   StopSupervisor supervisor_{config().stop};
@@ -170,11 +180,74 @@ class Engines {
   bool started_ = false;
 };
 
+constexpr double kStart_s = 100.0;
+constexpr double kNow_s = 100.5;  // how far the driving rover has come
+constexpr double kStep_s = 0.02;
+constexpr double kWheelInterval_s = 0.1;
+constexpr double kSpeed_mps = 0.8;
+
+NavigationState drivingState(double time_s) {
+  NavigationState state;
+  state.stamp = fromSeconds(time_s);
+  state.v_eb_n = {kSpeed_mps, 0.0, 0.0};
+  state.position = {0.69, -1.39, 300.0};
+  return state;
+}
+
+InsSteps drivingSteps(double begin_s, double end_s) {
+  InsSteps message;
+  message.start = 1;
+  for (double time_s = begin_s; time_s < end_s - 0.5 * kStep_s; time_s += kStep_s) {
+    InsStep step;
+    step.sequence = static_cast<std::uint64_t>(std::lround((time_s - kStart_s) / kStep_s));
+    step.start = fromSeconds(time_s);
+    step.state = drivingState(time_s + kStep_s);
+    step.f_ib_b = {0.0, 0.0, -9.8};
+    message.steps.push_back(toMessage(step));
+  }
+  return message;
+}
+
+ForecastInput drivingInput(double time_s, double slip) {
+  Estimate estimate;
+  estimate.nav = drivingState(time_s);
+  estimate.has_wheels = estimate.wheel_speed_used = true;
+  estimate.wheels.stamp = estimate.nav.stamp;
+  estimate.wheels.motion.forward_mps = kSpeed_mps / (1.0 - slip);
+  estimate.motion.duration_s = kWheelInterval_s;
+  estimate.motion.v_eb_b = {kSpeed_mps, 0.0, 0.0};
+  ForecastInput message;
+  fill(estimate, 1e-3 * ErrorCovariance::Identity(), message);
+  return message;
+}
+
+/// The engines of a rover that drives, so that a single message reaches much.
+Engines makeDrivingEngines() {
+  Engines engines;
+  InitialState initial;
+  initial.nav = drivingState(kStart_s);
+  initial.P = 1e-3 * ErrorCovariance::Identity();
+  initial.origin = initial.nav.position;
+  StartState start;
+  start.start = 1;
+  fill(initial, start);
+  engines.receive(start);
+  engines.receive(drivingSteps(kStart_s, kNow_s));
+  return engines;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  Engines engines;
+  static const Engines fresh;
+  static const Engines driving = makeDrivingEngines();
   fuzz::MessageReader reader(data, size);
+  const bool drives = reader.nextType(2) == 0;
+  Engines engines = drives ? driving : fresh;
+  forecaster().reset();
+  for (int left = drives ? kSamplesForForecast - 1 : 0; left > 0; --left) {
+    engines.receive(drivingInput(kNow_s - kWheelInterval_s * left, 0.01 * left));
+  }
   while (const std::optional<int> type = reader.nextType(Engines::kTypes)) {
     engines.handle(*type, reader);
   }

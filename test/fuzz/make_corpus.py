@@ -7,6 +7,7 @@ Needs the workspace: source build/devel/setup.bash, then test/fuzz/make_corpus.p
 import io
 import math
 import pathlib
+import re
 
 import geometry_msgs.msg
 import nav_msgs.msg
@@ -15,9 +16,11 @@ import rospy
 import sensor_msgs.msg
 import slipnav.msg
 import slipnav.srv
+import tf2_msgs.msg
 
 CORPUS = pathlib.Path(__file__).resolve().parent / "corpus"
 START_S = 102.0
+ENGINES_S = 100.5  # how far the driving engines of internal_ros_fuzz.cpp have come
 WHEELS = ("front_left_wheel", "front_right_wheel", "back_left_wheel", "back_right_wheel")
 STATES = 22
 
@@ -83,12 +86,12 @@ def start_state():
     return message
 
 
-def steps(first, count):
+def steps(begin_s, first, count):
     message = slipnav.msg.InsSteps(start=1)
-    for sequence in range(first, first + count):
-        interval = slipnav.msg.InsInterval(sequence=sequence, f_ib_b=[0.0, 0.0, -9.8])
-        interval.start = rospy.Time.from_sec(START_S + 0.02 * sequence)
-        interval.state = inertial_state(START_S + 0.02 * (sequence + 1))
+    for i in range(count):
+        interval = slipnav.msg.InsInterval(sequence=first + i, f_ib_b=[0.0, 0.0, -9.8])
+        interval.start = rospy.Time.from_sec(begin_s + 0.02 * i)
+        interval.state = inertial_state(begin_s + 0.02 * (i + 1))
         message.steps.append(interval)
     return message
 
@@ -155,42 +158,61 @@ def write_sensor_messages():
 
 def write_internal_messages():
     folder = CORPUS / "internal"
-    write_messages(folder / "filter", b"", [(0, start_state()), (1, steps(0, 5)), (1, steps(5, 3))])
-    write_messages(folder / "forecast", b"",
-                   [(3, forecast_input(START_S + 0.1 * i, 0.05 * math.sin(i))) for i in range(8)])
+    driving, fresh = b"\0", b"\1"
+    write_messages(folder / "filter", fresh, [(0, start_state()), (1, steps(START_S, 0, 3)), (1, steps(START_S + 0.06, 3, 1))])
+    write_messages(folder / "steps", driving, [(1, steps(ENGINES_S, 25, 4))])
+    write_messages(folder / "forecast", driving, [(3, forecast_input(ENGINES_S + 0.1, 0.05))])
     place = slipnav.srv.SetStateRequest(position_std_m=0.1, has_heading=True, heading_deg=10.0, heading_std_deg=1.0)
     correction = slipnav.msg.FilterCorrection(start=1, corrects=True, epoch=1, sequence=2,
-                                              state=inertial_state(START_S + 0.06))
-    write_messages(folder / "corrections", b"",
-                   [(0, start_state()), (1, steps(0, 60)), (4, place), (2, correction), (1, steps(3, 2))])
-    stop = stamped(slipnav.msg.ErrorForecast(), START_S + 0.1)
+                                              state=inertial_state(ENGINES_S))
+    write_messages(folder / "corrections", driving, [(4, place), (2, correction), (1, steps(ENGINES_S, 25, 2))])
+    stop = stamped(slipnav.msg.ErrorForecast(), START_S)
     stop.time_to_stop_s = 0.1
-    supervisor = []
-    for i in range(12):
-        time_s = START_S + 0.1 * i
-        supervisor += [(5, slip(time_s, 0.8)), (6, nav_state(time_s)), (8, twist(0.8))]
-        if i == 1:
-            supervisor.append((7, stop))
-    write_messages(folder / "supervisor", b"", supervisor)
+    write_messages(folder / "supervisor", fresh,
+                   [(5, slip(START_S, 0.8)), (6, nav_state(START_S)), (7, stop), (8, twist(0.8)), (8, twist(0.8))])
 
 
-def write_bag(name, messages):
+def without_padding(bag):
+    """The bytes of a recording without the 4 KB that its header reserves: changes there would change nothing."""
+    header_end = 17 + int.from_bytes(bag[13:17], "little")
+    padding = int.from_bytes(bag[header_end:header_end + 4], "little")
+    small = bytearray(bag[:header_end] + bytes(4) + bag[header_end + 4 + padding:])
+    for place in re.finditer(b"(index|chunk)_pos=", bytes(small)):
+        number = slice(place.end(), place.end() + 8)
+        small[number] = (int.from_bytes(small[number], "little") - padding).to_bytes(8, "little")
+    return bytes(small)
+
+
+def write_bag(name, messages, compression="none"):
     path = CORPUS / "bag" / name
     path.parent.mkdir(parents=True, exist_ok=True)
-    with rosbag.Bag(str(path), "w", chunk_threshold=1000) as bag:
+    with rosbag.Bag(str(path), "w", chunk_threshold=1500, compression=compression) as bag:
         for topic, message in messages:
             # A definition of each type would be most of the file, and nothing reads it.
             header = {"topic": topic, "type": message._type, "md5sum": message._md5sum, "message_definition": " "}
-            bag.write(topic, message, message.header.stamp, connection_header=header)
+            stamp = message.header.stamp if hasattr(message, "header") else rospy.Time.from_sec(START_S)
+            bag.write(topic, message, stamp, connection_header=header)
+    path.write_bytes(without_padding(path.read_bytes()))
+
+
+def static_transform(child_frame):
+    transform = stamped(geometry_msgs.msg.TransformStamped(), START_S)
+    transform.header.frame_id, transform.child_frame_id = "base_link", child_frame
+    transform.transform.rotation.w = 1.0
+    return tf2_msgs.msg.TFMessage(transforms=[transform])
 
 
 def write_bags():
-    times_s = [START_S + 0.1 * i for i in range(14)]
-    write_bag("joints.bag", [part for t in times_s for part in (("imu/data", imu(t, 0.2)), ("joint_states", joints(t, 1.0)))]
+    times_s = [START_S + 0.1 * i for i in range(8)]
+    drive = [("imu/data", imu(t, 0.2)) for t in times_s]
+    write_bag("joints.bag", drive + [("joint_states", joints(t, 1.0)) for t in times_s[-3:]]
               + [("truth/fix", fix(times_s[-1])), ("gps/fix", fix(times_s[-1]))])
-    write_bag("odometry.bag", [part for t in times_s
-                               for part in (("imu/data", imu(t)), ("wheel_odometry", odometry(t, 0.1)))]
-              + [("truth/odometry", odometry(times_s[-1], 0.1))])
+    write_bag("odometry.bag", drive + [("wheel_odometry", odometry(t, 0.1)) for t in times_s[-2:]]
+              + [("truth/odometry", odometry(times_s[-1], 0.1))], "lz4")
+    write_bag("pose.bag", drive + [("wheel_odometry", odometry(times_s[-1], 0.1)), ("truth/pose", pose(times_s[-1]))],
+              "bz2")
+    write_bag("extrinsics.bag", [("/tf_static", static_transform("imu_link"))] + drive
+              + [("wheel_odometry", odometry(times_s[-1], 0.1))])
     write_bag("imu_only.bag", [("imu/data", imu(times_s[0]))])
 
 
