@@ -30,6 +30,12 @@ std::string describeNode(const YAML::Node& node) {
   }
 }
 
+/// What a document does not have. Making such a node anew for each absent key would take most of the time of reading.
+const YAML::Node& absentNode() {
+  static const YAML::Node absent(YAML::NodeType::Undefined);
+  return absent;
+}
+
 }  // namespace
 
 YamlReader::YamlReader(const YAML::Node& root, std::string source) : source_(std::move(source)) { openBlock(root); }
@@ -148,7 +154,7 @@ std::optional<std::size_t> YamlReader::enterList(const char* name, std::size_t /
 void YamlReader::enterItem(std::size_t index) {
   const YAML::Node& list = blocks_.back().node;
   path_.enterItem(index);
-  openBlock(list ? list[index] : YAML::Node(YAML::NodeType::Undefined));
+  openBlock(list ? list[index] : absentNode());
 }
 
 void YamlReader::leaveItem() {
@@ -163,10 +169,10 @@ void YamlReader::leaveList() {
 
 YAML::Node YamlReader::child(const std::string& name) {
   Block& block = blocks_.back();
-  block.known.insert(name);
   known_keys_.push_back(path_.key(name));
+  block.unread.erase(name);
   const YAML::Node& node = block.node;
-  return node && node.IsMap() ? node[name] : YAML::Node(YAML::NodeType::Undefined);
+  return node && node.IsMap() ? node[name] : absentNode();
 }
 
 void YamlReader::openBlock(const YAML::Node& node) {
@@ -174,17 +180,14 @@ void YamlReader::openBlock(const YAML::Node& node) {
     const std::string what = path_.current().empty() ? "the document" : quote(path_.current());
     fail(node.Mark(), what + " must be a block of keys, not " + describeNode(node));
   }
-  if (node) {
-    refuseDuplicates(node);
-  }
-  blocks_.push_back({node, {}});
+  blocks_.push_back({node, node ? keysOf(node) : std::set<std::string>()});
 }
 
 void YamlReader::closeBlock() {
   const Block& block = blocks_.back();
   if (block.node) {
     for (const auto& entry : block.node) {
-      if (block.known.count(entry.first.Scalar()) == 0) {
+      if (block.unread.count(entry.first.Scalar()) > 0) {
         unknown_keys_.push_back({path_.key(entry.first.Scalar()), entry.first.Mark()});
       }
     }
@@ -229,13 +232,14 @@ void YamlReader::requireList(const YAML::Node& node, const std::string& key) con
   }
 }
 
-void YamlReader::refuseDuplicates(const YAML::Node& map) const {
-  std::set<std::string> seen;
+std::set<std::string> YamlReader::keysOf(const YAML::Node& map) const {
+  std::set<std::string> keys;
   for (const auto& entry : map) {
-    if (!seen.insert(entry.first.Scalar()).second) {
+    if (!keys.insert(entry.first.Scalar()).second) {
       fail(entry.first.Mark(), "key " + quote(path_.key(entry.first.Scalar())) + " is given twice");
     }
   }
+  return keys;
 }
 
 void YamlReader::fail(const YAML::Mark& mark, const std::string& message) const {

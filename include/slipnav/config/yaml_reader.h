@@ -42,8 +42,8 @@ class YamlReader : public ParameterVisitor {
 
  private:
   struct Block {
-    YAML::Node node;              ///< map, or list of maps; undefined when the document has no such block
-    std::set<std::string> known;  ///< names that fields have asked for
+    YAML::Node node;               ///< map, or list of maps; undefined when the document has no such block
+    std::set<std::string> unread;  ///< keys of the map that no field has asked for
   };
   struct UnknownKey {
     std::string key;
@@ -57,7 +57,8 @@ class YamlReader : public ParameterVisitor {
   double readNumber(const YAML::Node& node, const std::string& key, const Range& range) const;
   std::string readWord(const YAML::Node& node, const std::string& key, const std::vector<std::string>& options) const;
   void requireList(const YAML::Node& node, const std::string& key) const;
-  void refuseDuplicates(const YAML::Node& map) const;
+  /// Throws when one is given twice.
+  std::set<std::string> keysOf(const YAML::Node& map) const;
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const;
 
   std::string source_;
