@@ -13,6 +13,9 @@ namespace {
 /// Fewer would print 50 as 5e+01.
 constexpr int kUsualDigits = 6;
 
+/// A damaged file may have a megabyte for a name, which would be compared for minutes.
+constexpr std::size_t kLongestName = 100;
+
 template <class Value>
 std::optional<Value> parseAll(const std::string& text) {
   std::istringstream stream(text);
@@ -87,10 +90,22 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates) {
-  const auto nearest = std::min_element(candidates.begin(), candidates.end(), [&](const auto& a, const auto& b) {
-    return editDistance(name, a) < editDistance(name, b);
-  });
-  return nearest == candidates.end() ? "" : *nearest;
+  const std::string start = name.substr(0, kLongestName);
+  std::string nearest;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
+  for (const std::string& candidate : candidates) {
+    const std::size_t longer = std::max(start.size(), candidate.size());
+    const std::size_t shorter = std::min(start.size(), candidate.size());
+    if (longer - shorter >= least) {  // and the distance is no less
+      continue;
+    }
+    const std::size_t distance = editDistance(start, candidate);
+    if (distance < least) {
+      least = distance;
+      nearest = candidate;
+    }
+  }
+  return nearest;
 }
 
 }  // namespace slipnav

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <ctime>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace slipnav {
 namespace {
@@ -58,6 +61,13 @@ TEST(ConfigText, NearestNameIsTheFirstOfTheClosest) {
   EXPECT_EQ(nearestName("upadtes", {"gate", "updates", "update"}), "updates");
   EXPECT_EQ(nearestName("x", {"a", "b"}), "a");
   EXPECT_EQ(nearestName("x", {}), "");
+}
+
+TEST(ConfigText, TheNearestOfAVeryLongNameIsFoundAtOnce) {
+  const std::vector<std::string> candidates(400, "forecast.slip.max_evaluations");
+  const std::clock_t begin = std::clock();
+  EXPECT_EQ(nearestName(std::string(300000, 'x'), candidates), candidates.front());
+  EXPECT_LT(std::clock() - begin, CLOCKS_PER_SEC / 2);
 }
 
 }  // namespace

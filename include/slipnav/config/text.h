@@ -28,7 +28,8 @@ std::string joinAlternatives(const std::vector<std::string>& names);
 /// Levenshtein distance: insertions, deletions and substitutions that turn one text into the other.
 std::size_t editDistance(const std::string& a, const std::string& b);
 
-/// The candidate with the least edit distance to `name` (the first of equals), "" when there is none.
+/// The candidate with the least edit distance to `name` (the first of equals), "" when there is none. Of a name that is
+/// longer than any that somebody would type, its beginning.
 std::string nearestName(const std::string& name, const std::vector<std::string>& candidates);
 
 }  // namespace slipnav
