@@ -13,7 +13,7 @@ namespace {
 /// Fewer would print 50 as 5e+01.
 constexpr int kUsualDigits = 6;
 
-/// A damaged file may have a megabyte for a name, which would be compared for minutes.
+/// A damaged file may have a megabyte for a name, and it would be compared with every candidate.
 constexpr std::size_t kLongestName = 100;
 
 template <class Value>

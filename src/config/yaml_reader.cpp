@@ -30,7 +30,7 @@ std::string describeNode(const YAML::Node& node) {
   }
 }
 
-/// What a document does not have. Making such a node anew for each absent key would take most of the time of reading.
+/// What a document does not have. yaml-cpp takes several pieces of memory for such a node, and most keys are absent.
 const YAML::Node& absentNode() {
   static const YAML::Node absent(YAML::NodeType::Undefined);
   return absent;
