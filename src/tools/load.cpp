@@ -9,10 +9,8 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
-#include <iomanip>
 #include <iostream>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,6 +18,7 @@
 
 #include "slipnav/config/command_line.h"
 #include "slipnav/config/text.h"
+#include "slipnav/eval/limit_table.h"
 #include "slipnav/eval/statistics.h"
 #include "slipnav/ros/bag_evaluation.h"
 #include "slipnav/ros/conversions.h"
@@ -131,28 +130,6 @@ class Probe {
   std::function<void()> begin_;
 };
 
-/// Figures with their limits, a line each.
-class Table {
- public:
-  void add(const std::string& figure, double measured) { row(figure, measured, ""); }
-  void addAtMost(const std::string& figure, double measured, double limit) {
-    row(figure, measured, "at most " + slipnav::formatNumber(limit) + (measured <= limit ? "" : "  MISSED"));
-  }
-  void addAtLeast(const std::string& figure, double measured, double limit) {
-    row(figure, measured, "at least " + slipnav::formatNumber(limit) + (measured >= limit ? "" : "  MISSED"));
-  }
-
-  std::string text() const { return text_.str(); }
-
- private:
-  void row(const std::string& figure, double measured, const std::string& limit) {
-    text_ << std::left << std::setw(52) << figure << std::right << std::fixed << std::setprecision(2) << std::setw(9)
-          << measured << "  " << limit << '\n';
-  }
-
-  std::ostringstream text_;
-};
-
 /// Plays a recording at different rates and measures.
 class Load {
  public:
@@ -217,7 +194,7 @@ class Load {
   slipnav::BagEvaluation offline_;
   slipnav::ReplaySession session_;
   Probe probe_;
-  Table table_;
+  slipnav::LimitTable table_;
 };
 
 void write(const std::string& path, const std::string& text) {
