@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
 #include <optional>
@@ -10,14 +11,13 @@
 #include <stdexcept>
 
 #include "slipnav/config/text.h"
-#include "slipnav/ros/child_process.h"
 #include "slipnav/ros/internal_topics.h"
 
 namespace slipnav {
 namespace {
 
 constexpr double kStartTimeout_s = 60.0;
-constexpr double kSilence_s = 5.0;
+constexpr double kSilence_s = 60.0;  // on a machine that is busy with other things
 constexpr double kStragglers_s = 0.5;
 const ros::WallDuration kPollInterval(0.02);
 
@@ -53,13 +53,29 @@ std::set<std::string> topicsWith(int kind) {
   return topics;
 }
 
-std::vector<std::string> recordedTopics(const std::string& path) {
-  rosbag::Bag bag(path);
+std::set<std::string> topicsOf(rosbag::View& view) {
   std::set<std::string> topics;
-  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
     topics.insert(connection->topic);
   }
-  return {topics.begin(), topics.end()};
+  return topics;
+}
+
+std::vector<std::string> playCommand(const ReplayOptions& options) {
+  std::vector<std::string> command = {"rosbag",
+                                      "play",
+                                      "--quiet",
+                                      "--clock",
+                                      "--keep-alive",
+                                      "--wait-for-subscribers",
+                                      "--queue=1000000",
+                                      "--rate=" + formatNumber(options.rate),
+                                      "--start=" + formatNumber(options.start_s)};
+  if (options.duration_s > 0.0) {
+    command.push_back("--duration=" + formatNumber(options.duration_s));
+  }
+  command.insert(command.end(), {options.bag, "--topics"});
+  return command;
 }
 
 }  // namespace
@@ -109,29 +125,27 @@ void ReplaySession::waitForNodelets() {
 }
 
 void ReplaySession::play(const ReplayOptions& options) {
+  player_.reset();
   recorder_ = EstimateRecorder();  // else the track before would pass for this one until its first estimate comes
   odometry_ = OdometryLog();
-  std::vector<std::string> command = {"rosbag",
-                                      "play",
-                                      "--quiet",
-                                      "--clock",
-                                      "--wait-for-subscribers",
-                                      "--queue=1000000",
-                                      "--rate=" + formatNumber(options.rate),
-                                      "--start=" + formatNumber(options.start_s)};
-  if (options.duration_s > 0.0) {
-    command.push_back("--duration=" + formatNumber(options.duration_s));
-  }
-  command.insert(command.end(), {options.bag, "--topics"});
+  const rosbag::Bag bag(options.bag);
+  rosbag::View view(bag);
+  std::vector<std::string> command = playCommand(options);
   const std::set<std::string> wanted = topicsWith(1);
-  for (const std::string& topic : recordedTopics(options.bag)) {
+  for (const std::string& topic : topicsOf(view)) {
     if (wanted.count(node_.resolveName(topic)) > 0 || wanted.count("/" + topic) > 0) {
       command.push_back(topic);
     }
   }
-  ChildProcess player(command);
-  spinUntil([&player] { return player.poll().has_value(); }, std::nullopt);
-  if (player.wait() != 0) {
+  const ros::Time begin = view.getBeginTime() + ros::Duration(options.start_s);
+  const ros::Time end = options.duration_s > 0.0 ? begin + ros::Duration(options.duration_s) : view.getEndTime();
+  ros::Time clock;
+  const boost::function<void(const rosgraph_msgs::Clock::ConstPtr&)> note =
+      [&clock](const rosgraph_msgs::Clock::ConstPtr& message) { clock = message->clock; };
+  const ros::Subscriber listener = node_.subscribe<rosgraph_msgs::Clock>("/clock", 1, note);
+  player_ = std::make_unique<ChildProcess>(command);
+  spinUntil([this, &clock, end] { return clock > end || player_->poll(); }, std::nullopt);
+  if (player_->poll()) {
     throw std::runtime_error("rosbag play has failed");
   }
 }
@@ -141,7 +155,8 @@ void ReplaySession::waitForEstimate(Nanoseconds last_stamp) {
   do {
     size = recorder_.size();
     spinUntil([this, last_stamp] { return newestStamp() >= last_stamp; }, kSilence_s);
-  } while (newestStamp() < last_stamp && recorder_.size() > size);
+  } while (newestStamp() < last_stamp && recorder_.size() != size);
+  player_.reset();
   // The slip of the last wheel sample was published before, but comes on a way of its own.
   spinUntil([] { return false; }, kStragglers_s);
 }

@@ -3,10 +3,12 @@
 
 #include <ros/ros.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "slipnav/config/topics.h"
+#include "slipnav/ros/child_process.h"
 #include "slipnav/ros/estimate_recorder.h"
 #include "slipnav/ros/odometry_log.h"
 
@@ -32,12 +34,14 @@ class ReplaySession {
   /// Waits until all nodelets are there and connected. Throws std::runtime_error that says what is missing.
   void waitForNodelets();
 
-  /// Plays with rosbag play, with its clock, all topics that somebody listens to. Nobody misses a message: playing
-  /// starts when everybody is connected, and queues hold whatever comes.
+  /// Plays with rosbag play, with its clock, all topics that somebody listens to, until that clock has passed the end.
+  /// Nobody misses a message: playing starts when everybody is connected, queues hold whatever comes, and the player
+  /// stays to deliver what they hold, while its clock runs on. It ends with this object, the next recording or
+  /// waitForEstimate().
   /// Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
   void play(const ReplayOptions& options);
 
-  /// Waits for the estimate of `last_stamp`, at most until nothing has come for some seconds.
+  /// Waits for the estimate of `last_stamp`, at most until none has come for a minute, and ends the player.
   void waitForEstimate(Nanoseconds last_stamp);
 
   const EstimateRecorder& recorder() const { return recorder_; }
@@ -54,6 +58,7 @@ class ReplaySession {
   EstimateRecorder recorder_;
   OdometryLog odometry_;
   std::vector<ros::Subscriber> subscribers_;
+  std::unique_ptr<ChildProcess> player_;
 };
 
 }  // namespace slipnav
