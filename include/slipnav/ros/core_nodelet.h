@@ -65,6 +65,9 @@ class CoreNodelet : public nodelet::Nodelet {
                                                               ros::TransportHints().tcpNoDelay()));
   }
 
+  /// Whether each topic that is listened to has a publisher.
+  bool isConnected() const;
+
   template <class Message>
   SharedPublisher<Message> publisher(const std::string& topic, bool latch = false) {
     return {getNodeHandle(), topic, latch};
