@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "slipnav/config/text.h"
+#include "slipnav/ros/child_process.h"
 #include "slipnav/ros/internal_topics.h"
 
 namespace slipnav {
@@ -53,15 +54,17 @@ std::set<std::string> topicsWith(int kind) {
   return topics;
 }
 
-std::set<std::string> topicsOf(rosbag::View& view) {
+std::set<std::string> recordedTopics(const std::string& path) {
+  rosbag::Bag bag(path);
   std::set<std::string> topics;
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+  for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
     topics.insert(connection->topic);
   }
   return topics;
 }
 
-std::vector<std::string> playCommand(const ReplayOptions& options) {
+/// @param wanted full names of the topics that somebody listens to
+std::vector<std::string> playCommand(const ReplayOptions& options, const std::set<std::string>& wanted) {
   std::vector<std::string> command = {"rosbag",
                                       "play",
                                       "--quiet",
@@ -75,6 +78,11 @@ std::vector<std::string> playCommand(const ReplayOptions& options) {
     command.push_back("--duration=" + formatNumber(options.duration_s));
   }
   command.insert(command.end(), {options.bag, "--topics"});
+  for (const std::string& topic : recordedTopics(options.bag)) {
+    if (wanted.count(ros::names::resolve(topic)) > 0 || wanted.count("/" + topic) > 0) {
+      command.push_back(topic);
+    }
+  }
   return command;
 }
 
@@ -124,39 +132,26 @@ void ReplaySession::waitForNodelets() {
   }
 }
 
-void ReplaySession::play(const ReplayOptions& options) {
-  player_.reset();
+void ReplaySession::play(const ReplayOptions& options, Nanoseconds last_stamp) {
   recorder_ = EstimateRecorder();  // else the track before would pass for this one until its first estimate comes
   odometry_ = OdometryLog();
-  const rosbag::Bag bag(options.bag);
-  rosbag::View view(bag);
-  std::vector<std::string> command = playCommand(options);
-  const std::set<std::string> wanted = topicsWith(1);
-  for (const std::string& topic : topicsOf(view)) {
-    if (wanted.count(node_.resolveName(topic)) > 0 || wanted.count("/" + topic) > 0) {
-      command.push_back(topic);
-    }
-  }
-  const ros::Time begin = view.getBeginTime() + ros::Duration(options.start_s);
-  const ros::Time end = options.duration_s > 0.0 ? begin + ros::Duration(options.duration_s) : view.getEndTime();
   ros::Time clock;
   const boost::function<void(const rosgraph_msgs::Clock::ConstPtr&)> note =
       [&clock](const rosgraph_msgs::Clock::ConstPtr& message) { clock = message->clock; };
   const ros::Subscriber listener = node_.subscribe<rosgraph_msgs::Clock>("/clock", 1, note);
-  player_ = std::make_unique<ChildProcess>(command);
-  spinUntil([this, &clock, end] { return clock > end || player_->poll(); }, std::nullopt);
-  if (player_->poll()) {
-    throw std::runtime_error("rosbag play has failed");
-  }
-}
-
-void ReplaySession::waitForEstimate(Nanoseconds last_stamp) {
-  std::size_t size = 0;
+  ChildProcess player(playCommand(options, topicsWith(1)));
+  const auto has_come = [this, &player, last_stamp] {
+    if (player.poll()) {
+      throw std::runtime_error("rosbag play has failed");
+    }
+    return newestStamp() >= last_stamp;
+  };
+  std::size_t estimates = 0;
+  ros::Time clock_before;
   do {
-    size = recorder_.size();
-    spinUntil([this, last_stamp] { return newestStamp() >= last_stamp; }, kSilence_s);
-  } while (newestStamp() < last_stamp && recorder_.size() != size);
-  player_.reset();
+    estimates = recorder_.size();
+    clock_before = clock;
+  } while (!spinUntil(has_come, kSilence_s) && (recorder_.size() != estimates || clock != clock_before));
   // The slip of the last wheel sample was published before, but comes on a way of its own.
   spinUntil([] { return false; }, kStragglers_s);
 }

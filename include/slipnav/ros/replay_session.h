@@ -3,12 +3,10 @@
 
 #include <ros/ros.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
 #include "slipnav/config/topics.h"
-#include "slipnav/ros/child_process.h"
 #include "slipnav/ros/estimate_recorder.h"
 #include "slipnav/ros/odometry_log.h"
 
@@ -34,15 +32,11 @@ class ReplaySession {
   /// Waits until all nodelets are there and connected. Throws std::runtime_error that says what is missing.
   void waitForNodelets();
 
-  /// Plays with rosbag play, with its clock, all topics that somebody listens to, until that clock has passed the end.
-  /// Nobody misses a message: playing starts when everybody is connected, queues hold whatever comes, and the player
-  /// stays to deliver what they hold, while its clock runs on. It ends with this object, the next recording or
-  /// waitForEstimate().
-  /// Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
-  void play(const ReplayOptions& options);
-
-  /// Waits for the estimate of `last_stamp`, at most until none has come for a minute, and ends the player.
-  void waitForEstimate(Nanoseconds last_stamp);
+  /// Plays with rosbag play, with its clock, all topics that somebody listens to, until the estimate of `last_stamp`
+  /// has come: the player is not let go before, as its queues would go with it. Nobody misses a message: playing starts
+  /// when everybody is connected, and queues hold whatever comes. Where nothing comes for a minute, neither an estimate
+  /// nor the clock, that is the end as well. Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
+  void play(const ReplayOptions& options, Nanoseconds last_stamp);
 
   const EstimateRecorder& recorder() const { return recorder_; }
   const OdometryLog& odometry() const { return odometry_; }
@@ -58,7 +52,6 @@ class ReplaySession {
   EstimateRecorder recorder_;
   OdometryLog odometry_;
   std::vector<ros::Subscriber> subscribers_;
-  std::unique_ptr<ChildProcess> player_;
 };
 
 }  // namespace slipnav
