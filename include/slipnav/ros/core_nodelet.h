@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "slipnav/config/config.h"
+#include "slipnav/ros/patience.h"
 #include "slipnav/ros/shared_publisher.h"
 #include "slipnav/ros/tuning_server.h"
 
@@ -89,6 +90,9 @@ class CoreNodelet : public nodelet::Nodelet {
 
   /// Offers what the table of tunable parameters has for `nodelet` to dynamic_reconfigure. Called in subscribe().
   void offerTuning(const std::string& nodelet);
+
+  /// How long silence has to last in real time [s] before it counts.
+  static double patience() { return ros::Time::isSimTime() ? kSimulatedPatience_s : kPatience_s; }
 
   /// Seconds of a clock that only runs forward, for patience.
   static double now() { return ros::SteadyTime::now().toSec(); }
