@@ -53,7 +53,7 @@ class FilterNodelet : public CoreNodelet {
     checkpoints_.emplace(config.checkpoint);
     health_.emplace(config.navigation().filter);
     const bool uses_wheels = !config.filter.updates.empty();
-    gate_ = StepGate(uses_wheels ? std::optional<double>(config.filter.max_wait_s) : std::nullopt);
+    gate_ = StepGate(uses_wheels ? std::optional<double>(config.filter.max_wait_s) : std::nullopt, patience());
     look_ahead_ = LookAhead(config.filter.max_wait_s);
     lever_imu_to_base_b_ = -config.imu.mount.position_b();
   }

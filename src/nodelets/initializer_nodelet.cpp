@@ -48,6 +48,7 @@ class InitializerNodelet : public CoreNodelet {
     wheel_input_.emplace(config);
     screen_.emplace(setup.imu_input);
     merger_.emplace(config.filter.max_wait_s);
+    trusted_ = TrustedStamp(patience());
     resumption_.emplace(Planet::byName(config.planet), config.checkpoint, setup.filter);
     for (const std::string& refused : resumption_->refused()) {
       NODELET_WARN("%s", refused.c_str());

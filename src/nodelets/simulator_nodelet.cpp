@@ -4,7 +4,8 @@
 /// initial_state, odometry, nav_state, slip.
 ///
 /// Everybody keeps in step by stamps: an interval begins when all that the last one must lead to has come back. So the
-/// drive is that of the offline simulation, whatever the machine is busy with; see doc/nodelets.md.
+/// drive is that of the offline simulation, whatever the machine is busy with, and in whatever process this nodelet is;
+/// see doc/nodelets.md.
 
 #include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
@@ -23,15 +24,16 @@
 #include <vector>
 
 #include "simulation_options.h"
-#include "slipnav/eval/simulated_run.h"
-#include "slipnav/eval/track_comparison.h"
-#include "slipnav/ros/bag_evaluation.h"
+#include "slipnav/eval/simulated_drive.h"
+#include "slipnav/navigator/pipeline.h"
 #include "slipnav/ros/bag_writer.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/estimate_recorder.h"
+#include "slipnav/ros/endurance_watch.h"
 #include "slipnav/ros/internal_topics.h"
+#include "slipnav/ros/node_process.h"
 #include "slipnav/ros/sensor_publisher.h"
+#include "slipnav/ros/simulation_result.h"
 #include "slipnav/ros/stop_messages.h"
 
 namespace slipnav {
@@ -51,31 +53,48 @@ class SimulatorNodelet : public CoreNodelet {
   ~SimulatorNodelet() override { stop(); }
 
  private:
-  enum class Waiting { kForNodelets, kForTime, kForCommand, kForStatus, kForEstimates, kForNothing };
+  enum class Waiting { kForNodelets, kForTime, kForCommand, kForEstimates, kForNothing };
 
   void begin(const Config& config) override {
     config_ = config;
+    geometry_.emplace(config.wheelGeometry());
     options_.emplace(privateNode());
     const bool autonomous = options_->policy == "autonomous";
     if (autonomous && config.stop.stopMode() != StopMode::kActive) {
       throw std::invalid_argument("policy autonomous needs stop.mode: active");
     }
     operator_ = makeStopPolicy(autonomous ? "none" : options_->policy, config.stop);
-    drive_ = std::make_unique<SimulatedDrive>(config.simulator, Planet::byName(config.planet));
-    run_ = std::make_unique<SimulatedRun>(config);
+    const Planet planet = Planet::byName(config.planet);
+    drive_ = std::make_unique<SimulatedDrive>(config.simulator, planet);
+    twin_.emplace(planet, config.navigation(),
+                  [this](const Estimate& estimate, const ErrorCovariance&) { twin_stamp_ = estimate.nav.stamp; });
+    judge_ = makeJudge(config, planet);
     if (!options_->bag.empty()) {
       bag_.emplace(options_->bag, config);
     }
     allowed_until_ = drive_->truth().stamp;
   }
 
+  std::unique_ptr<DriveJudge> makeJudge(const Config& config, const Planet& planet) {
+    if (options_->endurance_h == 0.0) {
+      return std::make_unique<SimulationResult>(config, options_->out, options_->report,
+                                                options_->policy == "autonomous");
+    }
+    const std::string manager = node().resolveName(options_->manager);
+    return std::make_unique<EnduranceWatch>(planet, options_->endurance_h, options_->out,
+                                            [manager] { return usageOf(pidOf(manager)).memory_mb * 1e6 / 1024.0; });
+  }
+
   void subscribe(const Config& config) override {
     listen<StopStatus>(config.topics.stop, &SimulatorNodelet::onStatus);
-    listen<nav_msgs::Odometry>(config.topics.odometry, &SimulatorNodelet::record<nav_msgs::Odometry>);
-    listen<NavState>(config.topics.nav_state, &SimulatorNodelet::record<NavState>);
-    listen<Slip>(config.topics.slip, &SimulatorNodelet::record<Slip>);
     if (supervisorIsWired(config)) {
       listen<geometry_msgs::Twist>(config.topics.cmd_vel, &SimulatorNodelet::onCommand);
+    }
+    listen<nav_msgs::Odometry>(config.topics.odometry, &SimulatorNodelet::judge<nav_msgs::Odometry>);
+    listen<Initialization>(kInitializationTopic, &SimulatorNodelet::judge<Initialization>);
+    if (options_->endurance_h == 0.0) {
+      listen<NavState>(config.topics.nav_state, &SimulatorNodelet::judge<NavState>);
+      listen<Slip>(config.topics.slip, &SimulatorNodelet::judge<Slip>);
     }
   }
 
@@ -117,12 +136,17 @@ class SimulatorNodelet : public CoreNodelet {
     for (const ros::master::TopicInfo& topic : published) {
       missing.erase(topic.name);
     }
-    awaited_ = missing.empty() ? "" : "nodelet that publishes " + *missing.begin();
-    if (missing.empty()) {
-      begun_s_ = now();
+    awaited_ = missing.empty() ? "connection to the nodelets" : "nodelet that publishes " + *missing.begin();
+    if (missing.empty() && isConnectedToNodelets()) {
       allowed_until_ = drive_->truth().stamp;
       waitFor(Waiting::kForTime);
     }
+  }
+
+  /// To another process that takes a moment, and what is published before is lost.
+  bool isConnectedToNodelets() const {
+    return isConnected() && sensors_->areHeard() &&
+           (!supervisorIsWired(config_) || command_publisher_.hasSubscribers());
   }
 
   std::vector<std::string> expectedTopics() const {
@@ -153,19 +177,13 @@ class SimulatorNodelet : public CoreNodelet {
         if (!mayGoOn()) {
           return false;
         }
-        drive_->finished() ? waitFor(Waiting::kForEstimates) : command();
+        drive_->finished() || judge_->hasSeenEnough() ? finish() : command();
         return true;
-      case Waiting::kForStatus:
+      case Waiting::kForEstimates:
         if (!isCaughtUp()) {
           return false;
         }
         waitFor(Waiting::kForTime);
-        return true;
-      case Waiting::kForEstimates:
-        if (recorder_.newestStamp() < run_->newestStamp()) {
-          return false;
-        }
-        finish();
         return true;
       default:
         return false;
@@ -202,38 +220,39 @@ class SimulatorNodelet : public CoreNodelet {
 
   void execute(const VelocityCommand& command) {
     const sim::Measurements measurements = drive_->execute(command);
-    const Nanoseconds known_until = run_->newestStamp();
-    run_->add(measurements, drive_->truth());
-    if (known_until == 0) {
-      offline_start_ = drive_->truth().stamp;
+    if (twin_stamp_ == 0) {
+      twin_start_ = drive_->truth().stamp;
     }
+    pushMeasurements(measurements, *geometry_, *twin_);
+    judge_->add(measurements, drive_->truth());
     if (bag_) {
       bag_->write(measurements, drive_->truth());
     }
-    waitFor(Waiting::kForStatus);
-    awaited_ = config_.topics.stop;
+    waitFor(Waiting::kForEstimates);
+    awaited_ = config_.topics.stop + " or " + config_.topics.odometry;
     sensors_->publish(measurements, drive_->truth());
   }
 
-  /// Whether the nodelets have come as far as the offline run of the same samples.
+  /// Whether the nodelets have come as far as the pipeline has with the same samples.
   bool isCaughtUp() const {
-    if (run_->newestStamp() == 0) {
+    if (twin_stamp_ == 0) {
       return true;
     }
     if (!estimatesCome()) {
-      return drive_->truth().stamp < offline_start_ + fromSeconds(config_.filter.max_wait_s + kStartLag_s);
+      return drive_->truth().stamp < twin_start_ + fromSeconds(config_.filter.max_wait_s + kStartLag_s);
     }
-    return newest_status_ >= run_->newestStamp();
+    return newest_status_ >= twin_stamp_ && judge_->newestStamp() >= twin_stamp_;
   }
 
   void onStatus(const StopStatus::ConstPtr& message) {
     newest_status_ = toNanoseconds(message->header.stamp);
+    judge_->add(*message);
     proceed();
   }
 
   template <class Message>
-  void record(const boost::shared_ptr<const Message>& message) {
-    recorder_.add(*message);
+  void judge(const boost::shared_ptr<const Message>& message) {
+    judge_->add(*message);
     proceed();
   }
 
@@ -252,22 +271,8 @@ class SimulatorNodelet : public CoreNodelet {
     if (bag_) {
       bag_->close();
     }
-    const RunReport offline = run_->finish();
-    const RunReport report = withEstimates(offline, recorder_.track(), now() - begun_s_);
-    if (!options_->out.empty()) {
-      writeRunReport(options_->out, report);
-    }
-    if (!options_->out.empty() && options_->report) {
-      plotReport(options_->out);
-    }
-    const std::string name = config_.simulator.terrain + " " + std::to_string(config_.simulator.seed);
-    std::cout << comparisonText("simulate", report.estimates, offline.estimates) << tableHeader()
-              << tableRow(name, thresholdInForce(), report.metrics) << std::flush;
+    std::cout << judge_->verdict() << std::flush;
     ros::requestShutdown();
-  }
-
-  std::optional<double> thresholdInForce() const {
-    return options_->policy == "autonomous" ? std::optional(config_.forecast.threshold_m) : std::nullopt;
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
@@ -281,19 +286,21 @@ class SimulatorNodelet : public CoreNodelet {
   }
 
   Config config_;
+  std::optional<WheelGeometry> geometry_;
   std::optional<SimulationOptions> options_;
   std::unique_ptr<StopPolicy> operator_;
   std::unique_ptr<SimulatedDrive> drive_;
-  std::unique_ptr<SimulatedRun> run_;  ///< the same samples offline: how far the nodelets must come, and the metrics
+  /// The same samples in one thread: says how far the nodelets must come.
+  std::optional<Pipeline> twin_;
+  Nanoseconds twin_stamp_ = 0;  ///< of its newest estimate
+  Nanoseconds twin_start_ = 0;  ///< when it had its first one
+  std::unique_ptr<DriveJudge> judge_;
   std::optional<BagWriter> bag_;
-  EstimateRecorder recorder_;
   Waiting waiting_ = Waiting::kForNodelets;
   double waiting_since_s_ = now();
   std::string awaited_;
   Nanoseconds allowed_until_ = 0;  ///< unless it is simulated as fast as it goes
   double tick_s_ = 0.0;
-  double begun_s_ = 0.0;
-  Nanoseconds offline_start_ = 0;
   Nanoseconds newest_status_ = 0;  ///< 0: there has been no estimate so far
   std::unique_ptr<SensorPublisher> sensors_;
   SharedPublisher<geometry_msgs::Twist> command_publisher_;

@@ -36,6 +36,7 @@ class StopSupervisorNodelet : public CoreNodelet {
   void begin(const Config& config) override {
     frames_ = config.frames;
     supervisor_.emplace(config.stop);
+    gate_ = ForecastGate(patience());
     observer_.emplace(config.stationary.wheel_speed_mps);
     estimates_watch_.emplace(config.stop.estimate_timeout_s);
     commands_watch_.emplace(config.stop.command_timeout_s);

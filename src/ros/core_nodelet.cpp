@@ -1,5 +1,7 @@
 #include "slipnav/ros/core_nodelet.h"
 
+#include <algorithm>
+
 #include "slipnav/ros/extrinsics.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/parameters.h"
@@ -69,6 +71,11 @@ void CoreNodelet::stop() {
   subscribers_.clear();
   services_.clear();
   tuning_.reset();
+}
+
+bool CoreNodelet::isConnected() const {
+  return std::all_of(subscribers_.begin(), subscribers_.end(),
+                     [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; });
 }
 
 void CoreNodelet::guarded(const std::function<void()>& work) {

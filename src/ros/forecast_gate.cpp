@@ -1,7 +1,6 @@
 #include "slipnav/ros/forecast_gate.h"
 
 #include "slipnav/ins/imu_screen.h"
-#include "slipnav/ros/patience.h"
 
 namespace slipnav {
 namespace {
@@ -12,7 +11,7 @@ constexpr std::size_t kMaxForecasts = 100;  // of another session, whose estimat
 
 void ForecastGate::push(const RoverObservation& observation, double now_s) {
   if (observation.stamp <= newest_ - kRestartBackstep) {
-    *this = ForecastGate();
+    *this = ForecastGate(patience_s_);
   }
   newest_ = observation.stamp;
   held_.push_back({observation, now_s});
@@ -34,7 +33,7 @@ bool ForecastGate::mayGo(const Held& held, double now_s) {
   if (!held.observation.has_wheels || held.observation.stamp <= dealt_with_) {
     return true;
   }
-  silent_ = silent_ || now_s - held.time_s >= kPatience_s;
+  silent_ = silent_ || now_s - held.time_s >= patience_s_;
   return silent_;
 }
 

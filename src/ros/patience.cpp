@@ -12,7 +12,7 @@ void TrustedStamp::push(Nanoseconds stamp, double now_s) {
 }
 
 Nanoseconds TrustedStamp::at(double now_s) {
-  while (!arrivals_.empty() && now_s - arrivals_.front().time_s >= kPatience_s) {
+  while (!arrivals_.empty() && now_s - arrivals_.front().time_s >= patience_s_) {
     trusted_ = arrivals_.front().stamp;
     arrivals_.pop_front();
   }
@@ -22,7 +22,7 @@ Nanoseconds TrustedStamp::at(double now_s) {
 void StepGate::restart() {
   held_.clear();
   newest_ = 0;
-  trusted_ = TrustedStamp();
+  trusted_ = TrustedStamp(patience_s_);
 }
 
 void StepGate::push(const InsStep& step, double now_s) {

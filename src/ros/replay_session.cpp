@@ -1,6 +1,7 @@
 #include "slipnav/ros/replay_session.h"
 
 #include <ros/callback_queue.h>
+#include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
 #include <optional>
@@ -16,7 +17,7 @@ namespace slipnav {
 namespace {
 
 constexpr double kStartTimeout_s = 60.0;
-constexpr double kSilence_s = 5.0;
+constexpr double kSilence_s = 60.0;  // on a machine that is busy with other things
 constexpr double kStragglers_s = 0.5;
 const ros::WallDuration kPollInterval(0.02);
 
@@ -52,13 +53,36 @@ std::set<std::string> topicsWith(int kind) {
   return topics;
 }
 
-std::vector<std::string> recordedTopics(const std::string& path) {
+std::set<std::string> recordedTopics(const std::string& path) {
   const BagFile bag(path);
   std::set<std::string> topics;
   for (const auto& [id, connection] : bag.connections()) {
     topics.insert(connection.topic);
   }
-  return {topics.begin(), topics.end()};
+  return topics;
+}
+
+/// @param wanted full names of the topics that somebody listens to
+std::vector<std::string> playCommand(const ReplayOptions& options, const std::set<std::string>& wanted) {
+  std::vector<std::string> command = {"rosbag",
+                                      "play",
+                                      "--quiet",
+                                      "--clock",
+                                      "--keep-alive",
+                                      "--wait-for-subscribers",
+                                      "--queue=1000000",
+                                      "--rate=" + formatNumber(options.rate),
+                                      "--start=" + formatNumber(options.start_s)};
+  if (options.duration_s > 0.0) {
+    command.push_back("--duration=" + formatNumber(options.duration_s));
+  }
+  command.insert(command.end(), {options.bag, "--topics"});
+  for (const std::string& topic : recordedTopics(options.bag)) {
+    if (wanted.count(ros::names::resolve(topic)) > 0 || wanted.count("/" + topic) > 0) {
+      command.push_back(topic);
+    }
+  }
+  return command;
 }
 
 }  // namespace
@@ -107,40 +131,26 @@ void ReplaySession::waitForNodelets() {
   }
 }
 
-void ReplaySession::play(const ReplayOptions& options) {
+void ReplaySession::play(const ReplayOptions& options, Nanoseconds last_stamp) {
   recorder_ = EstimateRecorder();  // else the track before would pass for this one until its first estimate comes
   odometry_ = OdometryLog();
-  std::vector<std::string> command = {"rosbag",
-                                      "play",
-                                      "--quiet",
-                                      "--clock",
-                                      "--wait-for-subscribers",
-                                      "--queue=1000000",
-                                      "--rate=" + formatNumber(options.rate),
-                                      "--start=" + formatNumber(options.start_s)};
-  if (options.duration_s > 0.0) {
-    command.push_back("--duration=" + formatNumber(options.duration_s));
-  }
-  command.insert(command.end(), {options.bag, "--topics"});
-  const std::set<std::string> wanted = topicsWith(1);
-  for (const std::string& topic : recordedTopics(options.bag)) {
-    if (wanted.count(node_.resolveName(topic)) > 0 || wanted.count("/" + topic) > 0) {
-      command.push_back(topic);
+  ros::Time clock;
+  const boost::function<void(const rosgraph_msgs::Clock::ConstPtr&)> note =
+      [&clock](const rosgraph_msgs::Clock::ConstPtr& message) { clock = message->clock; };
+  const ros::Subscriber listener = node_.subscribe<rosgraph_msgs::Clock>("/clock", 1, note);
+  ChildProcess player(playCommand(options, topicsWith(1)));
+  const auto has_come = [this, &player, last_stamp] {
+    if (player.poll()) {
+      throw std::runtime_error("rosbag play has failed");
     }
-  }
-  ChildProcess player(command);
-  spinUntil([&player] { return player.poll().has_value(); }, std::nullopt);
-  if (player.wait() != 0) {
-    throw std::runtime_error("rosbag play has failed");
-  }
-}
-
-void ReplaySession::waitForEstimate(Nanoseconds last_stamp) {
-  std::size_t size = 0;
+    return newestStamp() >= last_stamp;
+  };
+  std::size_t estimates = 0;
+  ros::Time clock_before;
   do {
-    size = recorder_.size();
-    spinUntil([this, last_stamp] { return newestStamp() >= last_stamp; }, kSilence_s);
-  } while (newestStamp() < last_stamp && recorder_.size() > size);
+    estimates = recorder_.size();
+    clock_before = clock;
+  } while (!spinUntil(has_come, kSilence_s) && (recorder_.size() != estimates || clock != clock_before));
   // The slip of the last wheel sample was published before, but comes on a way of its own.
   spinUntil([] { return false; }, kStragglers_s);
 }

@@ -7,6 +7,9 @@
 namespace slipnav {
 namespace {
 
+/// In real time, as rosbag play has it: every node listens to the clock, and wakes up for it.
+const ros::WallDuration kClockInterval(0.01);
+
 template <class Message>
 void send(const SharedPublisher<Message>& publisher, Message message) {
   publisher.publish(boost::make_shared<Message>(std::move(message)));
@@ -24,9 +27,7 @@ SensorPublisher::SensorPublisher(ros::NodeHandle& node, const Config& config)
       truth_odometry_(SharedPublisher<nav_msgs::Odometry>(node, config.topics.truth_odometry)) {}
 
 void SensorPublisher::publish(const sim::Measurements& measurements, const sim::TruthState& truth) {
-  rosgraph_msgs::Clock clock;
-  clock.clock = toRosTime(truth.stamp);
-  send(clock_, clock);
+  publishClock(truth.stamp);
   if (measurements.gps) {
     send(gps_, sensors_.fix(*measurements.gps));
   }
@@ -38,6 +39,17 @@ void SensorPublisher::publish(const sim::Measurements& measurements, const sim::
     send(truth_odometry_, sensors_.truth(truth));
   }
   send(imu_, sensors_.imu(measurements.imu));
+}
+
+void SensorPublisher::publishClock(Nanoseconds stamp) {
+  const ros::SteadyTime now = ros::SteadyTime::now();
+  if (now - told_clock_ < kClockInterval) {
+    return;
+  }
+  told_clock_ = now;
+  rosgraph_msgs::Clock clock;
+  clock.clock = toRosTime(stamp);
+  send(clock_, clock);
 }
 
 }  // namespace slipnav

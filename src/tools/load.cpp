@@ -9,10 +9,8 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
-#include <iomanip>
 #include <iostream>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -20,6 +18,7 @@
 
 #include "slipnav/config/command_line.h"
 #include "slipnav/config/text.h"
+#include "slipnav/eval/limit_table.h"
 #include "slipnav/eval/statistics.h"
 #include "slipnav/ros/bag_evaluation.h"
 #include "slipnav/ros/conversions.h"
@@ -41,6 +40,7 @@ constexpr double kMostMemory_mb = 60.0;
 constexpr double kMostLatency_ms = 2.0;
 constexpr double kLeastRate = 50.0;
 constexpr double kSettling_s = 10.0;  // of estimates, before the figures count
+constexpr double kMargin_s = 1.0;     // of recording, after the last estimate that is wanted
 /// The last one is far beyond what any machine sustains: rosbag play then goes as fast as the nodelets take it.
 constexpr double kRates[] = {50.0, 100.0, 1000.0};
 
@@ -131,28 +131,6 @@ class Probe {
   std::function<void()> begin_;
 };
 
-/// Figures with their limits, a line each.
-class Table {
- public:
-  void add(const std::string& figure, double measured) { row(figure, measured, ""); }
-  void addAtMost(const std::string& figure, double measured, double limit) {
-    row(figure, measured, "at most " + slipnav::formatNumber(limit) + (measured <= limit ? "" : "  MISSED"));
-  }
-  void addAtLeast(const std::string& figure, double measured, double limit) {
-    row(figure, measured, "at least " + slipnav::formatNumber(limit) + (measured >= limit ? "" : "  MISSED"));
-  }
-
-  std::string text() const { return text_.str(); }
-
- private:
-  void row(const std::string& figure, double measured, const std::string& limit) {
-    text_ << std::left << std::setw(52) << figure << std::right << std::fixed << std::setprecision(2) << std::setw(9)
-          << measured << "  " << limit << '\n';
-  }
-
-  std::ostringstream text_;
-};
-
 /// Plays a recording at different rates and measures.
 class Load {
  public:
@@ -181,10 +159,11 @@ class Load {
     const rosbag::Bag bag(bag_);
     const Nanoseconds begin = slipnav::toNanoseconds(rosbag::View(bag).getBeginTime());
     const Nanoseconds settled = offline_.report.estimates.front().stamp + slipnav::fromSeconds(kSettling_s);
+    const Nanoseconds last = std::min(settled + slipnav::fromSeconds(seconds_), offline_.report.estimates.back().stamp);
     const pid_t process = slipnav::pidOf(manager_);
     ProcessUsage before;
     probe_.watchFrom(settled, [&] { before = slipnav::usageOf(process); });
-    session_.play({bag_, 1.0, 0.0, slipnav::toSeconds(settled - begin) + seconds_});
+    session_.play({bag_, 1.0, 0.0, slipnav::toSeconds(last - begin) + kMargin_s}, last);
     const ProcessUsage after = slipnav::usageOf(process);
     const std::vector<double> latencies = probe_.latencies();
     if (latencies.empty()) {
@@ -202,8 +181,7 @@ class Load {
   /// @return the rate that was reached, 0 when something was lost
   double playAt(double rate) {
     probe_.watchFrom(0, [] {});
-    session_.play({bag_, rate, 0.0, 0.0});
-    session_.waitForEstimate(offline_.report.estimates.back().stamp);
+    session_.play({bag_, rate, 0.0, 0.0}, offline_.report.estimates.back().stamp);
     const std::size_t missing = probe_.missing(offline_.report.estimates);
     const double reached = probe_.watched_s() > 0.0 ? probe_.recorded_s() / probe_.watched_s() : 0.0;
     table_.add("played at " + slipnav::formatNumber(rate) + ": times real time", reached);
@@ -217,7 +195,7 @@ class Load {
   slipnav::BagEvaluation offline_;
   slipnav::ReplaySession session_;
   Probe probe_;
-  Table table_;
+  slipnav::LimitTable table_;
 };
 
 void write(const std::string& path, const std::string& text) {

@@ -58,8 +58,7 @@ int run(int argc, char** argv) {
   slipnav::ReplaySession session(config.topics);
   session.waitForNodelets();
   const ros::SteadyTime begin = ros::SteadyTime::now();
-  session.play(options);
-  session.waitForEstimate(offline.report.estimates.back().stamp);
+  session.play(options, offline.report.estimates.back().stamp);
   const double wall_s = (ros::SteadyTime::now() - begin).toSec();
 
   const slipnav::RunReport report = slipnav::withEstimates(offline.report, session.recorder().track(), wall_s);

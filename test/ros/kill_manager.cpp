@@ -118,7 +118,7 @@ TEST_F(KillManager, TheEstimateGoesOnFromTheCheckpoint) {
     }
     restarted = ros::SteadyTime::now();
   });
-  session.play({bag_.path(), kDriveRate, 0.0, 0.0});
+  session.play({bag_.path(), kDriveRate, 0.0, 0.0}, undisturbed.rbegin()->first);
   played = true;
   watch.join();
 

@@ -69,6 +69,14 @@ TEST(TrustedStamp, FollowsByThePatience) {
   EXPECT_EQ(trusted.at(1.75), 11 * kSecond);
 }
 
+TEST(StepGate, IsAsPatientAfterARestartAsBefore) {
+  StepGate gate(1.0, kSimulatedPatience_s);
+  gate.restart();
+  gate.push(stepTo(10 * kSecond), 5.0);
+  EXPECT_TRUE(released(gate, 0, 5.0 + 0.9 * kSimulatedPatience_s).empty());
+  EXPECT_EQ(released(gate, 0, 5.0 + 1.1 * kSimulatedPatience_s).size(), 1U);
+}
+
 TEST(TrustedStamp, BeginsAnewWhenTheClockGoesBack) {
   TrustedStamp trusted;
   trusted.push(10 * kSecond, 1.0);

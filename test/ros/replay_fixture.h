@@ -46,8 +46,7 @@ class ReplayFixture : public ::testing::Test {
 
   static BagEvaluation replayAndCompare(const std::string& path, double rate) {
     BagEvaluation offline = evaluateBag(path, *config_, "", {});
-    session_->play({path, rate, 0.0, 0.0});
-    session_->waitForEstimate(offline.report.estimates.back().stamp);
+    session_->play({path, rate, 0.0, 0.0}, offline.report.estimates.back().stamp);
     expectEqual(session_->recorder().track(), offline.report.estimates);
     EXPECT_EQ(session_->odometry().bytes(), offline.odometry.bytes());
     return offline;

@@ -1,5 +1,6 @@
 /// A drive through the nodelets, whose stops the supervisor decides, against the same drive offline: the same stops,
-/// the same trajectory and the same estimates, to the last digit.
+/// the same trajectory and the same estimates, to the last digit. With the parameter `apart`, the simulator is a
+/// process of its own.
 
 #include <gtest/gtest.h>
 #include <nodelet/NodeletLoad.h>
@@ -8,10 +9,13 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "slipnav/eval/simulated_run.h"
+#include "slipnav/ros/child_process.h"
 #include "slipnav/ros/parameters.h"
 
 namespace slipnav {
@@ -43,16 +47,27 @@ std::string contents(const std::string& path) {
   return text.str();
 }
 
-/// Has the simulator drive in the manager of the launch file, until it has written its results to `folder`.
-void driveThroughNodelets(const std::string& folder) {
-  ros::NodeHandle node;
-  node.setParam("/simulator/policy", "autonomous");
-  node.setParam("/simulator/out", folder);
+/// The simulator begins to drive in the manager of the launch file.
+void loadSimulator() {
   nodelet::NodeletLoad load;
   load.request.name = "/simulator";
   load.request.type = "slipnav/Simulator";
   ASSERT_TRUE(ros::service::waitForService("/slipnav_manager/load_nodelet", ros::Duration(20.0)));
   ASSERT_TRUE(ros::service::call("/slipnav_manager/load_nodelet", load));
+}
+
+/// Has the simulator drive, until it has written its results to `folder`.
+void driveThroughNodelets(const std::string& folder) {
+  ros::NodeHandle node;
+  node.setParam("/simulator/policy", "autonomous");
+  node.setParam("/simulator/out", folder);
+  std::unique_ptr<ChildProcess> apart;
+  if (ros::NodeHandle("~").param("apart", false)) {
+    apart = std::make_unique<ChildProcess>(std::vector<std::string>{"rosrun", "nodelet", "nodelet", "standalone",
+                                                                    "slipnav/Simulator", "__name:=simulator"});
+  } else {
+    loadSimulator();
+  }
   const ros::SteadyTime begin = ros::SteadyTime::now();
   while (!std::filesystem::exists(folder + "/metrics.json")) {  // the last file
     ASSERT_LT((ros::SteadyTime::now() - begin).toSec(), 120.0) << "the simulation does not end";

@@ -166,6 +166,19 @@ TEST_F(ForecastGateTest, PutsForecastsBetweenTheirEstimateAndTheNext) {
   EXPECT_EQ(released(), std::vector<int>{3});
 }
 
+TEST_F(ForecastGateTest, IsAsPatientAsItIsTold) {
+  gate_ = ForecastGate(kSimulatedPatience_s);
+  estimate(100);
+  gate_.dealtWith(100 * kSecond);
+  EXPECT_EQ(released(), std::vector<int>{100});
+  estimate(1);  // the clock went back
+  gate_.dealtWith(1 * kSecond);
+  EXPECT_EQ(released(), std::vector<int>{1});
+  estimate(2);
+  EXPECT_TRUE(released(0.9 * kSimulatedPatience_s).empty());
+  EXPECT_EQ(released(1.1 * kSimulatedPatience_s), std::vector<int>{2});
+}
+
 TEST_F(ForecastGateTest, HasNoForecastToWaitForBetweenWheelSamples) {
   gate_.dealtWith(1 * kSecond);
   estimate(2, 0.0, false);

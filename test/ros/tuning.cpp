@@ -79,8 +79,7 @@ class TuningTest : public test::ReplayFixture {
     };
     const ros::Subscriber listener = ros::NodeHandle().subscribe<ErrorForecast>("error_forecast", 1000, note);
     const BagEvaluation offline = evaluateBag(bag_->path(), *config_, "", {});
-    session_->play({bag_->path(), kRate, 0.0, 0.0});
-    session_->waitForEstimate(offline.report.estimates.back().stamp);
+    session_->play({bag_->path(), kRate, 0.0, 0.0}, offline.report.estimates.back().stamp);
     for (int i = 0; i < 20; ++i) {
       ros::WallDuration(0.05).sleep();
       ros::spinOnce();

@@ -39,8 +39,6 @@ class OfflineRun {
   void addTruthPose(const TruthSample& pose) { truth_poses_.push_back(pose); }
 
   const Pipeline& pipeline() const { return pipeline_; }
-  /// Stamp of the newest estimate, 0 before the first.
-  Nanoseconds newestStamp() const { return estimates_.empty() ? 0 : estimates_.back().stamp; }
 
   /// Throws std::runtime_error when the initialisation never ended, saying what it was waiting for.
   RunReport finish(const TruthAlignment& alignment) const;

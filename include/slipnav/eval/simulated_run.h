@@ -20,9 +20,6 @@ class SimulatedRun {
   /// One interval of the drive.
   void add(const sim::Measurements& measurements, const sim::TruthState& truth);
 
-  /// Stamp of the newest estimate, 0 before the first.
-  Nanoseconds newestStamp() const { return run_.newestStamp(); }
-
   /// Throws std::runtime_error when the initialisation never ended, saying what it was waiting for.
   RunReport finish() const { return run_.finish({}); }
 

@@ -19,6 +19,7 @@
 
 #include "slipnav/config/config.h"
 #include "slipnav/ros/callback_thread.h"
+#include "slipnav/ros/patience.h"
 #include "slipnav/ros/shared_publisher.h"
 #include "slipnav/ros/tuning_server.h"
 
@@ -75,6 +76,9 @@ class CoreNodelet : public nodelet::Nodelet {
         node_.subscribe<Message>(topic, kQueueSize, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   }
 
+  /// Whether each topic that is listened to has a publisher.
+  bool isConnected() const;
+
   template <class Message>
   SharedPublisher<Message> publisher(const std::string& topic, bool latch = false) {
     return {node_, topic, latch};
@@ -96,6 +100,9 @@ class CoreNodelet : public nodelet::Nodelet {
 
   /// Offers what the table of tunable parameters has for `nodelet` to dynamic_reconfigure. Called in subscribe().
   void offerTuning(const std::string& nodelet);
+
+  /// How long silence has to last in real time [s] before it counts.
+  static double patience() { return ros::Time::isSimTime() ? kSimulatedPatience_s : kPatience_s; }
 
   /// Seconds of a clock that only runs forward, for patience.
   static double now() { return ros::SteadyTime::now().toSec(); }

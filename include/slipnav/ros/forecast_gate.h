@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 
+#include "slipnav/ros/patience.h"
 #include "slipnav/stop/stop_supervisor.h"
 
 namespace slipnav {
@@ -14,6 +15,8 @@ namespace slipnav {
 /// that is silent is waited for once, for a moment of real time; it is not waited for again until it speaks.
 class ForecastGate {
  public:
+  explicit ForecastGate(double patience_s = kPatience_s) : patience_s_(patience_s) {}
+
   /// @param now_s any clock that only runs forward. One whose stamp goes back by a second or more begins anew.
   void push(const RoverObservation& observation, double now_s);
   void push(const StopForecast& forecast);
@@ -36,6 +39,7 @@ class ForecastGate {
   bool mayGo(const Held& held, double now_s);
   void releaseForecasts(const ForecastSink& forecasts);
 
+  double patience_s_;
   std::deque<Held> held_;
   std::deque<StopForecast> forecasts_;
   Nanoseconds newest_ = 0;    ///< estimate that came

@@ -14,12 +14,17 @@
 
 namespace slipnav {
 
-/// [s] of the wall clock.
+/// [s] of the wall clock, on a rover.
 inline constexpr double kPatience_s = 0.2;
+/// [s] of the wall clock, where time is that of a recording or a simulation: on a machine that is busy with other
+/// things a message may be on its way for long, and no rover waits.
+inline constexpr double kSimulatedPatience_s = 2.0;
 
 /// Newest stamp of one sensor that came at least the patience ago.
 class TrustedStamp {
  public:
+  explicit TrustedStamp(double patience_s = kPatience_s) : patience_s_(patience_s) {}
+
   /// @param now_s any clock that only runs forward
   void push(Nanoseconds stamp, double now_s);
   /// 0 when nothing is old enough.
@@ -30,6 +35,7 @@ class TrustedStamp {
     Nanoseconds stamp;
     double time_s;
   };
+  double patience_s_;
   std::deque<Arrival> arrivals_;
   Nanoseconds newest_ = 0;
   Nanoseconds trusted_ = 0;
@@ -39,7 +45,8 @@ class TrustedStamp {
 class StepGate {
  public:
   /// @param max_wait_s filter.max_wait_s; nothing when no wheel samples are used
-  explicit StepGate(std::optional<double> max_wait_s) : max_wait_s_(max_wait_s) {}
+  explicit StepGate(std::optional<double> max_wait_s, double patience_s = kPatience_s)
+      : max_wait_s_(max_wait_s), patience_s_(patience_s), trusted_(patience_s) {}
 
   /// Drops what is held; steps that come again in their place need not wait again.
   void clear() { held_.clear(); }
@@ -53,6 +60,7 @@ class StepGate {
 
  private:
   std::optional<double> max_wait_s_;
+  double patience_s_;
   std::deque<InsStep> held_;
   Nanoseconds newest_ = 0;
   TrustedStamp trusted_;

@@ -32,13 +32,11 @@ class ReplaySession {
   /// Waits until all nodelets are there and connected. Throws std::runtime_error that says what is missing.
   void waitForNodelets();
 
-  /// Plays with rosbag play, with its clock, all topics that somebody listens to. Nobody misses a message: playing
-  /// starts when everybody is connected, and queues hold whatever comes.
-  /// Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
-  void play(const ReplayOptions& options);
-
-  /// Waits for the estimate of `last_stamp`, at most until nothing has come for some seconds.
-  void waitForEstimate(Nanoseconds last_stamp);
+  /// Plays with rosbag play, with its clock, all topics that somebody listens to, until the estimate of `last_stamp`
+  /// has come: the player is not let go before, as its queues would go with it. Nobody misses a message: playing starts
+  /// when everybody is connected, and queues hold whatever comes. Where nothing comes for a minute, neither an estimate
+  /// nor the clock, that is the end as well. Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
+  void play(const ReplayOptions& options, Nanoseconds last_stamp);
 
   const EstimateRecorder& recorder() const { return recorder_; }
   const OdometryLog& odometry() const { return odometry_; }

@@ -14,11 +14,17 @@ class SensorPublisher {
  public:
   SensorPublisher(ros::NodeHandle& node, const Config& config);
 
-  /// One interval: the clock at its end, then the samples in order of their stamps.
+  /// One interval: the clock at its end, unless it has just been told, then the samples in order of their stamps.
   void publish(const sim::Measurements& measurements, const sim::TruthState& truth);
 
+  /// Somebody listens to each of the sensors that the navigation has.
+  bool areHeard() const { return imu_.hasSubscribers() && joints_.hasSubscribers() && gps_.hasSubscribers(); }
+
  private:
+  void publishClock(Nanoseconds stamp);
+
   SimulatedSensors sensors_;
+  ros::SteadyTime told_clock_;
   SharedPublisher<rosgraph_msgs::Clock> clock_;
   SharedPublisher<sensor_msgs::Imu> imu_;
   SharedPublisher<sensor_msgs::JointState> joints_;

@@ -1,0 +1,24 @@
+#pragma once
+/// Measured figures beside their limits.
+
+#include <string>
+
+namespace slipnav {
+
+/// A line for each figure, for people.
+class LimitTable {
+ public:
+  void add(const std::string& figure, double measured);
+  void addAtMost(const std::string& figure, double measured, double limit);
+  void addAtLeast(const std::string& figure, double measured, double limit);
+
+  /// A figure beyond its limit, or that is none, has the word MISSED.
+  const std::string& text() const { return text_; }
+
+ private:
+  void row(const std::string& figure, double measured, const std::string& limit);
+
+  std::string text_;
+};
+
+}  // namespace slipnav
