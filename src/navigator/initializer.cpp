@@ -61,85 +61,25 @@ Initializer::Initializer(const Planet& planet, const InitializationParams& param
       imu_params_(imu),
       setup_(setup),
       prior_variance_(ErrorDynamics(planet, setup.imu, setup.vehicle).priorVariance()),
-      detector_(setup.stationary) {}
+      recording_(
+          setup.stationary,
+          planet.gravity_n({degToRad(params.latitude_deg), degToRad(params.longitude_deg), params.height_m}).norm(),
+          params.min_rest_s, params.max_rest_s) {}
 
 void Initializer::reset() {
-  detector_.reset();
-  imu_.clear();
-  wheels_.clear();
-  fixes_.clear();
-  rest_ = Rest{};
+  recording_.clear();
   truth_.reset();
 }
 
 void Initializer::retune(const FilterSetup& setup) {
   setup_ = setup;
-  detector_.retune(setup.stationary);
+  recording_.retune(setup.stationary);
 }
 
 void Initializer::setTruth(const NavigationState& truth, bool has_attitude) {
   truth_ = truth;
   truth_has_attitude_ = has_attitude;
 }
-
-void Initializer::push(const ImuSample& sample) {
-  if (!sample.f_ib_b.allFinite() || !sample.omega_ib_b.allFinite() ||
-      (!imu_.empty() && sample.stamp <= imu_.back().stamp)) {
-    return;
-  }
-  imu_.push_back(sample);
-  detector_.addImu(sample.stamp, sample.f_ib_b, sample.omega_ib_b);
-}
-
-void Initializer::push(const WheelMotion& wheels) {
-  if (!std::isfinite(wheels.motion.forward_mps) || (!wheels_.empty() && wheels.stamp <= wheels_.back().stamp)) {
-    return;
-  }
-  wheels_.push_back(wheels);
-  trackRest(wheels);
-}
-
-void Initializer::push(const PositionFix& fix) {
-  if (std::isfinite(fix.position.latitude_rad) && (fixes_.empty() || fix.stamp > fixes_.back().stamp)) {
-    fixes_.push_back(fix);
-  }
-}
-
-void Initializer::trackRest(const WheelMotion& wheels) {
-  detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
-  const double gravity_mps2 =
-      planet_.gravity_n({degToRad(params_.latitude_deg), degToRad(params_.longitude_deg), params_.height_m}).norm();
-  const bool at_rest = detector_.isStationary(gravity_mps2);
-  if (at_rest && !rest_.over) {
-    if (rest_.begin == 0) {
-      rest_.begin = wheels.stamp;
-    }
-    rest_.end = wheels.stamp;
-    forgetBefore(rest_.end - fromSeconds(params_.max_rest_s));
-  } else if (!at_rest && rest_.begin != 0 && !rest_.over) {
-    if (restIsLongEnough()) {
-      rest_.over = true;
-    } else {
-      rest_ = Rest{};
-    }
-  }
-}
-
-void Initializer::forgetBefore(Nanoseconds stamp) {
-  if (rest_.begin >= stamp) {
-    return;
-  }
-  rest_.begin = stamp;
-  const auto drop = [stamp](auto& samples) {
-    samples.erase(samples.begin(), std::find_if(samples.begin(), samples.end(),
-                                                [stamp](const auto& sample) { return sample.stamp >= stamp; }));
-  };
-  drop(imu_);
-  drop(wheels_);
-  drop(fixes_);
-}
-
-bool Initializer::restIsLongEnough() const { return toSeconds(rest_.end - rest_.begin) >= params_.min_rest_s; }
 
 std::optional<InitialState> Initializer::result() const {
   if (params_.source == "gnss") {
@@ -150,28 +90,15 @@ std::optional<InitialState> Initializer::result() const {
 
 std::string Initializer::progress() const {
   if (params_.source != "gnss") {
-    return imu_.empty() ? "waiting for imu/data" : "levelling";
+    return recording_.imu().empty() ? "waiting for imu/data" : "levelling";
   }
-  if (!restIsLongEnough()) {
+  if (!recording_.restIsLongEnough()) {
     return "waiting for a standstill of " + std::to_string(static_cast<int>(std::ceil(params_.min_rest_s))) + " s";
   }
-  if (fixes_.empty()) {
+  if (recording_.fixes().empty()) {
     return "waiting for gps/fix";
   }
-  return rest_.over ? "straight drive under gps/fix" : "at rest: ready for the straight drive";
-}
-
-std::optional<Nanoseconds> Initializer::firstImuStampFrom(Nanoseconds stamp) const {
-  const auto it = std::find_if(imu_.begin(), imu_.end(), [stamp](const ImuSample& s) { return s.stamp >= stamp; });
-  return it == imu_.end() ? std::nullopt : std::optional<Nanoseconds>(it->stamp);
-}
-
-std::optional<Nanoseconds> Initializer::windowBeginFrom(Nanoseconds stamp) const {
-  const Nanoseconds window = fromSeconds(params_.levelling_window_s);
-  const auto it = std::adjacent_find(imu_.begin(), imu_.end(), [=](const ImuSample& sample, const ImuSample& next) {
-    return sample.stamp >= stamp && next.stamp - sample.stamp <= window;
-  });
-  return it == imu_.end() ? std::nullopt : std::optional<Nanoseconds>(it->stamp);
+  return recording_.rest().over ? "straight drive under gps/fix" : "at rest: ready for the straight drive";
 }
 
 std::optional<InitialState> Initializer::fromTruth() const {
@@ -190,20 +117,23 @@ std::optional<InitialState> Initializer::fromTruth() const {
 
 std::optional<InitialState> Initializer::fromWindow() const {
   const bool from_truth = params_.source == "truth";
-  if (imu_.size() < 2 || (from_truth && !truth_)) {
+  if (recording_.imu().size() < 2 || (from_truth && !truth_)) {
     return std::nullopt;
   }
-  const std::optional<Nanoseconds> begin = windowBeginFrom(from_truth        ? truth_->stamp
-                                                           : wheels_.empty() ? imu_.front().stamp
-                                                                             : wheels_.front().stamp);
-  if (!begin || toSeconds(imu_.back().stamp - *begin) < params_.levelling_window_s) {
+  const std::optional<Nanoseconds> begin =
+      recording_.windowBeginFrom(from_truth                    ? truth_->stamp
+                                 : recording_.wheels().empty() ? recording_.imu().front().stamp
+                                                               : recording_.wheels().front().stamp,
+                                 params_.levelling_window_s);
+  if (!begin || toSeconds(recording_.imu().back().stamp - *begin) < params_.levelling_window_s) {
     return std::nullopt;
   }
   const Nanoseconds end = *begin + fromSeconds(params_.levelling_window_s);
   const Nanoseconds slack = fromSeconds(setup_.stationary.hold_off_s + setup_.stationary.window_s + 0.5);
-  const bool at_rest = rest_.begin != 0 && rest_.begin <= *begin + slack && rest_.end + slack >= end;
+  const bool at_rest =
+      recording_.rest().begin != 0 && recording_.rest().begin <= *begin + slack && recording_.rest().end + slack >= end;
   InitialState initial =
-      levelled(*begin, at_rest ? std::min(end, rest_.end) : end, at_rest, degToRad(params_.heading_deg));
+      levelled(*begin, at_rest ? std::min(end, recording_.rest().end) : end, at_rest, degToRad(params_.heading_deg));
   initial.nav.position = {degToRad(params_.latitude_deg), degToRad(params_.longitude_deg), params_.height_m};
   if (from_truth) {
     initial.nav.position = truth_->position;
@@ -215,22 +145,23 @@ std::optional<InitialState> Initializer::fromWindow() const {
 }
 
 std::optional<InitialState> Initializer::fromDrive() const {
-  const bool rested = restIsLongEnough();
-  if (imu_.size() < 2 || fixes_.empty() || (rested && !rest_.over)) {
+  const bool rested = recording_.restIsLongEnough();
+  if (recording_.imu().size() < 2 || recording_.fixes().empty() || (rested && !recording_.rest().over)) {
     return std::nullopt;
   }
-  const std::optional<Nanoseconds> begin = windowBeginFrom(rested ? rest_.begin : fixes_.front().stamp);
+  const std::optional<Nanoseconds> begin = recording_.windowBeginFrom(
+      rested ? recording_.rest().begin : recording_.fixes().front().stamp, params_.levelling_window_s);
   const std::optional<PositionFix> start = begin ? startFix(*begin) : std::nullopt;
   const std::optional<PositionFix> end = start ? endFix(*start) : std::nullopt;
-  const std::optional<Nanoseconds> until = end ? firstImuStampFrom(end->stamp) : std::nullopt;
-  if (!until || wheels_.empty()) {
+  const std::optional<Nanoseconds> until = end ? recording_.firstImuStampFrom(end->stamp) : std::nullopt;
+  if (!until || recording_.wheels().empty()) {
     return std::nullopt;
   }
-  const bool wheels_known = wheels_.back().stamp >= *until;
-  if (!wheels_known && toSeconds(imu_.back().stamp - *until) < setup_.filter.max_wait_s) {
+  const bool wheels_known = recording_.wheels().back().stamp >= *until;
+  if (!wheels_known && toSeconds(recording_.imu().back().stamp - *until) < setup_.filter.max_wait_s) {
     return std::nullopt;
   }
-  const Nanoseconds level_end = rested ? rest_.end : *begin + fromSeconds(params_.levelling_window_s);
+  const Nanoseconds level_end = rested ? recording_.rest().end : *begin + fromSeconds(params_.levelling_window_s);
   InitialState initial = levelled(*begin, level_end, rested, headingOfDrive(*start, *end, rested));
   initial.nav.position = start->position;
   const Vector3 antenna_n = initial.nav.q_b_to_n * setup_.lever_imu_to_antenna_b;
@@ -246,22 +177,22 @@ std::optional<InitialState> Initializer::fromDrive() const {
 }
 
 std::optional<PositionFix> Initializer::startFix(Nanoseconds begin) const {
-  if (!restIsLongEnough()) {
-    return fixes_.front();
+  if (!recording_.restIsLongEnough()) {
+    return recording_.fixes().front();
   }
   PositionFix mean;
   double n = 0.0;
   double latitude = 0.0;
   double longitude = 0.0;
-  for (const PositionFix& fix : fixes_) {
-    if (fix.stamp < begin || fix.stamp > rest_.end) {
+  for (const PositionFix& fix : recording_.fixes()) {
+    if (fix.stamp < begin || fix.stamp > recording_.rest().end) {
       continue;
     }
     if (n == 0.0) {
       mean = fix;
       mean.position.height_m = 0.0;
     }
-    const Geodetic& reference = fixes_.front().position;  // offsets keep the digits
+    const Geodetic& reference = recording_.fixes().front().position;  // offsets keep the digits
     latitude += fix.position.latitude_rad - reference.latitude_rad;
     longitude += wrapToPi(fix.position.longitude_rad - reference.longitude_rad);
     mean.position.height_m += fix.position.height_m;
@@ -270,14 +201,15 @@ std::optional<PositionFix> Initializer::startFix(Nanoseconds begin) const {
   if (n == 0.0) {
     return std::nullopt;
   }
-  mean.position = {fixes_.front().position.latitude_rad + latitude / n,
-                   wrapToPi(fixes_.front().position.longitude_rad + longitude / n), mean.position.height_m / n};
+  mean.position = {recording_.fixes().front().position.latitude_rad + latitude / n,
+                   wrapToPi(recording_.fixes().front().position.longitude_rad + longitude / n),
+                   mean.position.height_m / n};
   mean.stamp = begin;
   return mean;
 }
 
 std::optional<PositionFix> Initializer::endFix(const PositionFix& start) const {
-  for (const PositionFix& fix : fixes_) {
+  for (const PositionFix& fix : recording_.fixes()) {
     if (fix.stamp > start.stamp &&
         positionDifference(planet_, fix.position, start.position).head<2>().norm() >= params_.drive_distance_m) {
       return fix;
@@ -287,41 +219,20 @@ std::optional<PositionFix> Initializer::endFix(const PositionFix& start) const {
 }
 
 double Initializer::headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const {
-  const double bias_z =
-      at_rest ? mean(rest_.begin, rest_.end).omega_ib_b.z() : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
+  const double bias_z = at_rest ? recording_.mean(recording_.rest().begin, recording_.rest().end).omega_ib_b.z()
+                                : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
   double heading = 0.0;
   Vector2 track = Vector2::Zero();
-  for (std::size_t i = 1; i < imu_.size() && imu_[i].stamp <= end.stamp; ++i) {
-    if (imu_[i].stamp <= start.stamp) {
+  for (std::size_t i = 1; i < recording_.imu().size() && recording_.imu()[i].stamp <= end.stamp; ++i) {
+    if (recording_.imu()[i].stamp <= start.stamp) {
       continue;
     }
-    const double dt_s = toSeconds(imu_[i].stamp - imu_[i - 1].stamp);
-    heading += dt_s * (imu_[i].omega_ib_b.z() - bias_z);
-    track += dt_s * speedAt(imu_[i].stamp) * Vector2(std::cos(heading), std::sin(heading));
+    const double dt_s = toSeconds(recording_.imu()[i].stamp - recording_.imu()[i - 1].stamp);
+    heading += dt_s * (recording_.imu()[i].omega_ib_b.z() - bias_z);
+    track += dt_s * recording_.speedAt(recording_.imu()[i].stamp) * Vector2(std::cos(heading), std::sin(heading));
   }
   const Vector3 driven = positionDifference(planet_, end.position, start.position);
   return wrapToPi(std::atan2(driven.y(), driven.x()) - std::atan2(track.y(), track.x()));
-}
-
-ImuSample Initializer::mean(Nanoseconds begin, Nanoseconds end) const {
-  ImuSample sum;
-  double n = 0.0;
-  for (const ImuSample& sample : imu_) {
-    if (sample.stamp > begin && sample.stamp <= end) {
-      sum.f_ib_b += sample.f_ib_b;
-      sum.omega_ib_b += sample.omega_ib_b;
-      n += 1.0;
-    }
-  }
-  sum.f_ib_b /= std::max(n, 1.0);
-  sum.omega_ib_b /= std::max(n, 1.0);
-  return sum;
-}
-
-double Initializer::speedAt(Nanoseconds stamp) const {
-  const auto it =
-      std::find_if(wheels_.begin(), wheels_.end(), [stamp](const WheelMotion& w) { return w.stamp >= stamp; });
-  return it == wheels_.end() ? (wheels_.empty() ? 0.0 : wheels_.back().motion.forward_mps) : it->motion.forward_mps;
 }
 
 InitialState Initializer::levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const {
@@ -332,24 +243,24 @@ InitialState Initializer::levelled(Nanoseconds begin, Nanoseconds end, bool at_r
   initial.P = priorCovariance(prior_variance_);
   Vector2 roll_pitch;
   if (at_rest) {
-    roll_pitch = levelAtRest(mean(begin, end).f_ib_b - initial.nav.accel_bias_b);
+    roll_pitch = levelAtRest(recording_.mean(begin, end).f_ib_b - initial.nav.accel_bias_b);
     initial.P.diagonal().segment<3>(kAttitude).setConstant(square(kLevelStd_rad));
     initial.P.diagonal().segment<3>(kVelocity).setConstant(square(kRestVelocityStd_mps));
   } else {
     std::vector<ImuSample> window;
-    std::copy_if(imu_.begin(), imu_.end(), std::back_inserter(window),
+    std::copy_if(recording_.imu().begin(), recording_.imu().end(), std::back_inserter(window),
                  [begin, end](const ImuSample& s) { return s.stamp >= begin && s.stamp <= end; });
     for (ImuSample& sample : window) {
       sample.f_ib_b -= initial.nav.accel_bias_b;
       sample.omega_ib_b -= initial.nav.gyro_bias_b;
     }
-    roll_pitch = levelAtRest(reactionToGravityOnTheMove(window, speedAt(begin), speedAt(end)));
+    roll_pitch = levelAtRest(reactionToGravityOnTheMove(window, recording_.speedAt(begin), recording_.speedAt(end)));
     initial.P.diagonal().segment<3>(kAttitude).setConstant(square(degToRad(params_.moving_level_std_deg)));
     initial.P.diagonal().segment<3>(kVelocity).setConstant(square(params_.moving_speed_std_mps));
   }
   initial.nav.q_b_to_n = q_b_to_n_fromEuler(roll_pitch.x(), roll_pitch.y(), heading_rad);
   if (!at_rest) {
-    initial.nav.v_eb_n = initial.nav.q_b_to_n * Vector3(speedAt(begin), 0.0, 0.0);
+    initial.nav.v_eb_n = initial.nav.q_b_to_n * Vector3(recording_.speedAt(begin), 0.0, 0.0);
   }
   return initial;
 }
@@ -357,17 +268,17 @@ InitialState Initializer::levelled(Nanoseconds begin, Nanoseconds end, bool at_r
 InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until) const {
   Navigator navigator(planet_, imu_params_, setup_);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
-  for (const PositionFix& fix : fixes_) {
+  for (const PositionFix& fix : recording_.fixes()) {
     if (fix.stamp <= until) {
       navigator.push(fix);
     }
   }
-  for (const WheelMotion& wheels : wheels_) {
+  for (const WheelMotion& wheels : recording_.wheels()) {
     if (wheels.stamp <= until) {
       navigator.push(wheels, ignore);
     }
   }
-  for (const ImuSample& sample : imu_) {
+  for (const ImuSample& sample : recording_.imu()) {
     if (sample.stamp <= until) {
       navigator.push(sample, ignore);
     }

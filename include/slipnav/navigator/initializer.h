@@ -15,8 +15,7 @@
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/ins/ins_engine.h"
-#include "slipnav/measurement/position_fix.h"
-#include "slipnav/slip/stationary_detector.h"
+#include "slipnav/navigator/start_recording.h"
 
 namespace slipnav {
 
@@ -50,9 +49,10 @@ class Initializer {
   void reset();
 
   /// Samples in order of stamp, of all sensors together.
-  void push(const ImuSample& sample);
-  void push(const WheelMotion& wheels);
-  void push(const PositionFix& fix);
+  template <class Sample>
+  void push(const Sample& sample) {
+    recording_.push(sample);
+  }
   /// The state for the source `truth`. Without attitude, it is levelled and takes the configured heading.
   void setTruth(const NavigationState& truth, bool has_attitude);
 
@@ -66,27 +66,12 @@ class Initializer {
   std::string progress() const;
 
  private:
-  /// The newest period of standstill.
-  struct Rest {
-    Nanoseconds begin = 0;
-    Nanoseconds end = 0;
-    bool over = false;
-  };
-
-  void trackRest(const WheelMotion& wheels);
-  void forgetBefore(Nanoseconds stamp);
-  bool restIsLongEnough() const;
   std::optional<InitialState> fromDrive() const;
   std::optional<InitialState> fromWindow() const;
   std::optional<InitialState> fromTruth() const;
-  std::optional<Nanoseconds> firstImuStampFrom(Nanoseconds stamp) const;
-  /// Likewise, of a sample that another one follows within the levelling window.
-  std::optional<Nanoseconds> windowBeginFrom(Nanoseconds stamp) const;
   std::optional<PositionFix> startFix(Nanoseconds begin) const;
   std::optional<PositionFix> endFix(const PositionFix& start) const;
   double headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const;
-  ImuSample mean(Nanoseconds begin, Nanoseconds end) const;
-  double speedAt(Nanoseconds stamp) const;
   InitialState levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const;
   InitialState runFilter(const InitialState& start, Nanoseconds until) const;
 
@@ -95,11 +80,7 @@ class Initializer {
   ImuInputParams imu_params_;
   FilterSetup setup_;
   ErrorVector prior_variance_;
-  StationaryDetector detector_;
-  std::vector<ImuSample> imu_;
-  std::vector<WheelMotion> wheels_;
-  std::vector<PositionFix> fixes_;
-  Rest rest_;
+  StartRecording recording_;
   std::optional<NavigationState> truth_;
   bool truth_has_attitude_ = false;
 };

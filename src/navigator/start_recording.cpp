@@ -1,0 +1,109 @@
+#include "slipnav/navigator/start_recording.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipnav {
+
+StartRecording::StartRecording(const StationaryParams& stationary, double gravity_mps2, double min_rest_s,
+                               double max_rest_s)
+    : gravity_mps2_(gravity_mps2), min_rest_s_(min_rest_s), max_rest_s_(max_rest_s), detector_(stationary) {}
+
+void StartRecording::clear() {
+  detector_.reset();
+  imu_.clear();
+  wheels_.clear();
+  fixes_.clear();
+  rest_ = Rest{};
+}
+
+void StartRecording::push(const ImuSample& sample) {
+  if (!sample.f_ib_b.allFinite() || !sample.omega_ib_b.allFinite() ||
+      (!imu_.empty() && sample.stamp <= imu_.back().stamp)) {
+    return;
+  }
+  imu_.push_back(sample);
+  detector_.addImu(sample.stamp, sample.f_ib_b, sample.omega_ib_b);
+}
+
+void StartRecording::push(const WheelMotion& wheels) {
+  if (!std::isfinite(wheels.motion.forward_mps) || (!wheels_.empty() && wheels.stamp <= wheels_.back().stamp)) {
+    return;
+  }
+  wheels_.push_back(wheels);
+  trackRest(wheels);
+}
+
+void StartRecording::push(const PositionFix& fix) {
+  if (std::isfinite(fix.position.latitude_rad) && (fixes_.empty() || fix.stamp > fixes_.back().stamp)) {
+    fixes_.push_back(fix);
+  }
+}
+
+void StartRecording::trackRest(const WheelMotion& wheels) {
+  detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
+  const bool at_rest = detector_.isStationary(gravity_mps2_);
+  if (at_rest && !rest_.over) {
+    if (rest_.begin == 0) {
+      rest_.begin = wheels.stamp;
+    }
+    rest_.end = wheels.stamp;
+    forgetBefore(rest_.end - fromSeconds(max_rest_s_));
+  } else if (!at_rest && rest_.begin != 0 && !rest_.over) {
+    if (restIsLongEnough()) {
+      rest_.over = true;
+    } else {
+      rest_ = Rest{};
+    }
+  }
+}
+
+void StartRecording::forgetBefore(Nanoseconds stamp) {
+  if (rest_.begin >= stamp) {
+    return;
+  }
+  rest_.begin = stamp;
+  const auto drop = [stamp](auto& samples) {
+    samples.erase(samples.begin(), std::find_if(samples.begin(), samples.end(),
+                                                [stamp](const auto& sample) { return sample.stamp >= stamp; }));
+  };
+  drop(imu_);
+  drop(wheels_);
+  drop(fixes_);
+}
+
+std::optional<Nanoseconds> StartRecording::firstImuStampFrom(Nanoseconds stamp) const {
+  const auto it = std::find_if(imu_.begin(), imu_.end(), [stamp](const ImuSample& s) { return s.stamp >= stamp; });
+  return it == imu_.end() ? std::nullopt : std::optional<Nanoseconds>(it->stamp);
+}
+
+std::optional<Nanoseconds> StartRecording::windowBeginFrom(Nanoseconds stamp, double window_s) const {
+  const Nanoseconds window = fromSeconds(window_s);
+  const auto it = std::adjacent_find(imu_.begin(), imu_.end(), [=](const ImuSample& sample, const ImuSample& next) {
+    return sample.stamp >= stamp && next.stamp - sample.stamp <= window;
+  });
+  return it == imu_.end() ? std::nullopt : std::optional<Nanoseconds>(it->stamp);
+}
+
+ImuSample StartRecording::mean(Nanoseconds begin, Nanoseconds end) const {
+  ImuSample sum;
+  double n = 0.0;
+  for (const ImuSample& sample : imu_) {
+    if (sample.stamp > begin && sample.stamp <= end) {
+      sum.f_ib_b += sample.f_ib_b;
+      sum.omega_ib_b += sample.omega_ib_b;
+      n += 1.0;
+    }
+  }
+  sum.f_ib_b /= std::max(n, 1.0);
+  sum.omega_ib_b /= std::max(n, 1.0);
+  return sum;
+}
+
+double StartRecording::speedAt(Nanoseconds stamp) const {
+  const auto it =
+      std::find_if(wheels_.begin(), wheels_.end(), [stamp](const WheelMotion& w) { return w.stamp >= stamp; });
+  return it == wheels_.end() ? (wheels_.empty() ? 0.0 : wheels_.back().motion.forward_mps) : it->motion.forward_mps;
+}
+
+}  // namespace slipnav
