@@ -40,6 +40,7 @@ void DrivePicture::clearDrive() {
   wheels_.clear();
   stops_.clear();
   course_.clear();
+  wheel_poses_.clear();
   newest_.reset();
   pair_.reset();
   slip_.reset();
@@ -102,7 +103,11 @@ void DrivePicture::takeTruth(const EstimateSample& earlier, const EstimateSample
 
 void DrivePicture::takeWheelPath() {
   for (const PlanarSample& pose : wheel_path_.take()) {
-    wheels_.add(pointOf(pose, newest_->position_enu_m.z()));
+    wheel_poses_.push_back(pose);
+  }
+  while (!wheel_poses_.empty() && wheel_poses_.front().stamp <= newest_->stamp) {
+    wheels_.add(pointOf(wheel_poses_.front(), newest_->position_enu_m.z()));
+    wheel_poses_.pop_front();
   }
 }
 

@@ -163,6 +163,29 @@ TEST_F(Drive, TruthIsDrawnAtTheHeightOfTheEstimateUnlessAskedOtherwise) {
   }
 }
 
+/// Sensors are ahead of the estimate when its start becomes known late, as in a recording that is played fast.
+TEST_F(Drive, DeadReckoningIsDrawnAtTheHeightThatTheEstimateHadThere) {
+  picture_.start(frame(), kSecond);
+  for (int i = 1; i <= 500; ++i) {
+    ImuSample imu;
+    imu.stamp = fromSeconds(0.02 * i);
+    picture_.wheelInput().add(imu);
+    if (i % 5 == 0) {
+      picture_.wheelInput().add(SpeedSample{imu.stamp, 1.0});
+    }
+  }
+  for (double t_s = 1.0; t_s <= 8.0; t_s += 0.02) {
+    EstimateSample estimate = estimateAt(t_s);
+    estimate.position_enu_m.z() = 0.1 * t_s;
+    picture_.add(estimate);
+  }
+  ASSERT_GT(picture_.wheels().points().size(), 20U);
+  for (const TrackPoint& point : picture_.wheels().points()) {
+    EXPECT_NEAR(point.position_enu_m.z(), 0.1 * toSeconds(point.stamp), 0.01);
+  }
+  EXPECT_NEAR(toSeconds(picture_.wheels().points().back().stamp), 8.0, 0.5);
+}
+
 TEST_F(Drive, AClockThatGoesBackClearsIt) {
   picture_.start(frame(), kSecond);
   drive(20.0);

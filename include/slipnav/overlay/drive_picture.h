@@ -2,6 +2,7 @@
 /// All that an overlay shows of a drive, gathered from what the nodelets and the sensors say.
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 
 #include "slipnav/overlay/overlay_params.h"
@@ -68,6 +69,7 @@ class DrivePicture {
   StopLog stops_;
   TruthFollower truth_follower_;
   WheelPath wheel_path_;
+  std::deque<PlanarSample> wheel_poses_;  ///< that the estimate has yet to reach
   CourseEstimate course_;
   std::optional<Nanoseconds> start_;
   std::optional<EstimateSample> newest_;
