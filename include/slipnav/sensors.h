@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 #include "slipnav/types.h"
 
@@ -43,5 +44,11 @@ struct GnssFix {
   double height_m = 0.0;  ///< above the ellipsoid
   Matrix3 covariance_ned_m2 = Matrix3::Identity();
 };
+
+/// Of whichever sample it is.
+template <class... Samples>
+Nanoseconds stampOf(const std::variant<Samples...>& sample) {
+  return std::visit([](const auto& s) { return s.stamp; }, sample);
+}
 
 }  // namespace slipnav

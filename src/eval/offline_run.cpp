@@ -58,7 +58,7 @@ void OfflineRun::push(const WheelMotion& wheels) {
   }
 }
 
-void OfflineRun::push(const PositionFix& fix) {
+void OfflineRun::push(const AntennaFix& fix) {
   pipeline_.push(fix);
   if (without_zupt_) {
     without_zupt_->push(fix);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "slipnav/math/rotation.h"
 
@@ -15,7 +16,9 @@ constexpr double kRecentSpeedGain = 0.3;
 constexpr double kKnownSlip = 4.0;
 constexpr double kIntervalTolerance_s = 1e-3;
 
-bool earlier(const PositionFix& a, const PositionFix& b) { return a.stamp < b.stamp; }
+bool earlier(const AntennaFix& a, const AntennaFix& b) {
+  return std::pair(stampOf(a), a.index()) < std::pair(stampOf(b), b.index());
+}
 
 double square(double x) { return x * x; }
 
@@ -76,7 +79,7 @@ void FilterEngine::initialise(const InitialState& initial) {
   recent_wheel_speed_mps_ = 0.0;
   slipping_until_ = 0;
   steps_.clear();
-  while (!fixes_.empty() && fixes_.front().stamp <= initial.nav.stamp) {
+  while (!fixes_.empty() && stampOf(fixes_.front()) <= initial.nav.stamp) {
     fixes_.pop_front();
   }
 }
@@ -147,10 +150,9 @@ void FilterEngine::turnTo(double heading_rad, double heading_std_rad) {
   P_.diagonal().segment<2>(kVelocity).array() += square(heading_std_rad) * state_.v_eb_n.head<2>().squaredNorm();
 }
 
-bool FilterEngine::push(const PositionFix& fix) {
-  const bool finite = std::isfinite(fix.position.latitude_rad) && std::isfinite(fix.position.longitude_rad) &&
-                      std::isfinite(fix.position.height_m) && fix.variance_ned_m2.allFinite();
-  if (!finite || (initialised_ && fix.stamp <= state_.stamp)) {
+bool FilterEngine::push(const AntennaFix& fix) {
+  const bool finite = std::visit([](const auto& f) { return isFinite(f); }, fix);
+  if (!finite || (initialised_ && stampOf(fix) <= state_.stamp)) {
     return false;
   }
   fixes_.insertSorted(fix, earlier);
@@ -170,7 +172,7 @@ std::optional<Correction> FilterEngine::advance(const EstimateSink& sink) {
     steps_.pop_front();
     const Vector3 v_mean_b = propagate(step);
     const bool by_wheels = applyWheels(step, v_mean_b);
-    const bool by_fixes = applyFixes();
+    const bool by_fixes = applyFixes(step);
     estimate_.sequence = step.sequence;
     estimate_.nav = state_;
     estimate_.vehicle = vehicle_;
@@ -361,11 +363,17 @@ MeasurementSet FilterEngine::restingMeasurements(const BodyMotion& motion) const
   return set;
 }
 
-bool FilterEngine::applyFixes() {
+bool FilterEngine::applyFixes(const InsStep& step) {
+  const Vector3& lever_b = setup_.lever_imu_to_antenna_b;
   bool corrected = false;
-  while (!fixes_.empty() && fixes_.front().stamp <= state_.stamp) {
+  while (!fixes_.empty() && stampOf(fixes_.front()) <= state_.stamp) {
     MeasurementSet set;
-    set.add(kFixPosition, positionMeasurement(planet_, fixes_.front(), state_, setup_.lever_imu_to_antenna_b));
+    if (const auto* position = std::get_if<PositionFix>(&fixes_.front())) {
+      set.add(kFixPosition, positionMeasurement(planet_, *position, state_, lever_b));
+    } else {
+      set.add(kFixVelocity, velocityMeasurement(planet_, std::get<VelocityFix>(fixes_.front()), state_, step.f_ib_b,
+                                                step.omega_ib_b, lever_b));
+    }
     corrected = update(set) || corrected;
     fixes_.pop_front();
   }

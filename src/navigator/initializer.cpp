@@ -273,6 +273,11 @@ InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until
       navigator.push(fix);
     }
   }
+  for (const VelocityFix& fix : recording_.velocityFixes()) {
+    if (fix.stamp <= until) {
+      navigator.push(fix);
+    }
+  }
   for (const WheelMotion& wheels : recording_.wheels()) {
     if (wheels.stamp <= until) {
       navigator.push(wheels, ignore);

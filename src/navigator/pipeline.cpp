@@ -54,7 +54,7 @@ void Pipeline::push(const WheelMotion& wheels) {
   }
 }
 
-void Pipeline::push(const PositionFix& fix) {
+void Pipeline::push(const AntennaFix& fix) {
   if (!initial_) {
     initializer_.push(fix);
     tryToStart();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace slipnav {
 
@@ -14,6 +15,7 @@ void StartRecording::clear() {
   imu_.clear();
   wheels_.clear();
   fixes_.clear();
+  velocity_fixes_.clear();
   rest_ = Rest{};
 }
 
@@ -34,9 +36,16 @@ void StartRecording::push(const WheelMotion& wheels) {
   trackRest(wheels);
 }
 
-void StartRecording::push(const PositionFix& fix) {
-  if (std::isfinite(fix.position.latitude_rad) && (fixes_.empty() || fix.stamp > fixes_.back().stamp)) {
-    fixes_.push_back(fix);
+void StartRecording::push(const AntennaFix& fix) {
+  const auto append = [](const auto& next, auto& fixes) {
+    if (isFinite(next) && (fixes.empty() || next.stamp > fixes.back().stamp)) {
+      fixes.push_back(next);
+    }
+  };
+  if (const auto* position = std::get_if<PositionFix>(&fix)) {
+    append(*position, fixes_);
+  } else {
+    append(std::get<VelocityFix>(fix), velocity_fixes_);
   }
 }
 
@@ -70,6 +79,7 @@ void StartRecording::forgetBefore(Nanoseconds stamp) {
   drop(imu_);
   drop(wheels_);
   drop(fixes_);
+  drop(velocity_fixes_);
 }
 
 std::optional<Nanoseconds> StartRecording::firstImuStampFrom(Nanoseconds stamp) const {

@@ -1,9 +1,10 @@
 /// slipnav/Initializer: finds where to start.
 ///
-/// In: imu/data, joint_states or wheel_odometry, gps/fix; hand_over, start_request. Out, latched: initial_state,
-/// initialization, TF map → odom.
+/// In: imu/data, joint_states or wheel_odometry, gps/fix, gps/velocity; hand_over, start_request. Out, latched:
+/// initial_state, initialization, TF map → odom.
 /// Services: initialise, reset.
 
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <sensor_msgs/Imu.h>
 #include <slipnav/Initialization.h>
 #include <slipnav/StartState.h>
@@ -65,6 +66,7 @@ class InitializerNodelet : public CoreNodelet {
     listen<sensor_msgs::JointState>(config.topics.joint_states, &InitializerNodelet::onWheels<sensor_msgs::JointState>);
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &InitializerNodelet::onWheels<nav_msgs::Odometry>);
     listen<sensor_msgs::NavSatFix>(config.topics.gps_fix, &InitializerNodelet::onFix);
+    listen<geometry_msgs::TwistWithCovarianceStamped>(config.topics.gps_velocity, &InitializerNodelet::onVelocity);
     serve("initialise", &InitializerNodelet::initialise);
     serve("reset", &InitializerNodelet::reset);
   }
@@ -152,6 +154,13 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
+  void onVelocity(const geometry_msgs::TwistWithCovarianceStamped::ConstPtr& message) {
+    if (const std::optional<VelocityFix> fix = toVelocityFix(*message)) {
+      merger_->push(*fix);
+      proceed();
+    }
+  }
+
   void onTick() override {
     proceed();
     reportProgress();
@@ -177,7 +186,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
   void use(const WheelMotion& wheels) { useWhileSearching(wheels); }
-  void use(const PositionFix& fix) { useWhileSearching(fix); }
+  void use(const AntennaFix& fix) { useWhileSearching(fix); }
 
   template <class CoreSample>
   void useWhileSearching(const CoreSample& sample) {

@@ -35,6 +35,7 @@ CalibrationDrive readDrive(const BagReader& reader, bool with_truth) {
   sink.imu = [&drive](const ImuSample& sample) { drive.imu.push_back(sample); };
   sink.wheels = [&drive](const WheelMotion& wheels) { drive.wheels.push_back(wheels); };
   sink.fix = [](const GnssFix&) {};
+  sink.velocity = [](const VelocityFix&) {};
   sink.truth_start = [](const NavigationState&, bool) {};
   sink.truth_fix = [&drive, with_truth](const GnssFix& fix) {
     if (with_truth) {

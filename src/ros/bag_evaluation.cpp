@@ -48,6 +48,7 @@ void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluati
   sink.imu = take;
   sink.wheels = take;
   sink.fix = [&take](const GnssFix& fix) { take(toPositionFix(fix)); };
+  sink.velocity = take;
   sink.truth_start = [&run](const NavigationState& state, bool has_attitude) { run.setTruth(state, has_attitude); };
   sink.truth_fix = [&run, with_truth](const GnssFix& fix) {
     if (with_truth) {

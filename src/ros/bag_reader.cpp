@@ -95,6 +95,7 @@ struct BagReader::Parts {
       fail("has neither topic '" + topics.joint_states + "' (" + typeName<sensor_msgs::JointState>() + ") nor '" +
            topics.wheel_odometry + "' (" + typeName<nav_msgs::Odometry>() + "); it has " + listOfTopics());
     }
+    has<geometry_msgs::TwistWithCovarianceStamped>(topics.gps_velocity);  // or of the wrong type
     if (config.initialization.source == "gnss" && !has<sensor_msgs::NavSatFix>(topics.gps_fix)) {
       fail("has no topic '" + topics.gps_fix + "' (" + typeName<sensor_msgs::NavSatFix>() +
            "), which initialization.source: gnss needs; it has " + listOfTopics());
@@ -234,6 +235,10 @@ void BagReader::read(const BagSink& sink) const {
     } else if (topic == bare(topics.gps_fix)) {
       if (const std::optional<GnssFix> fix = toGnssFix(parts_->bag.read<sensor_msgs::NavSatFix>(entry))) {
         sink.fix(*fix);
+      }
+    } else if (topic == bare(topics.gps_velocity)) {
+      if (const auto fix = toVelocityFix(parts_->bag.read<geometry_msgs::TwistWithCovarianceStamped>(entry))) {
+        sink.velocity(*fix);
       }
     }
     if (topic == parts_->truth_topic) {  // may be one of the inputs, too

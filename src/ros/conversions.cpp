@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kUnknownFixStdHorizontal_m = 5.0;
 constexpr double kUnknownFixStdVertical_m = 10.0;
+constexpr double kUnknownVelocityStdHorizontal_mps = 0.1;
+constexpr double kUnknownVelocityStdVertical_mps = 0.2;
 
 template <class Message>
 Vector3 toVector(const Message& message) {
@@ -99,6 +101,19 @@ std::optional<GnssFix> toGnssFix(const sensor_msgs::NavSatFix& message) {
   }
   return GnssFix{toNanoseconds(message.header.stamp), message.latitude, message.longitude, message.altitude,
                  covarianceOf(message)};
+}
+
+std::optional<VelocityFix> toVelocityFix(const geometry_msgs::TwistWithCovarianceStamped& message) {
+  VelocityFix fix;
+  fix.stamp = toNanoseconds(message.header.stamp);
+  fix.v_ea_n = swapEnuNed() * toVector(message.twist.twist.linear);
+  const Vector3 variance_enu(message.twist.covariance[0], message.twist.covariance[7], message.twist.covariance[14]);
+  const bool known = variance_enu.allFinite() && variance_enu.minCoeff() > 0.0;
+  fix.variance_ned_m2ps2 = known ? Vector3(variance_enu.y(), variance_enu.x(), variance_enu.z())
+                                 : Vector3(kUnknownVelocityStdHorizontal_mps, kUnknownVelocityStdHorizontal_mps,
+                                           kUnknownVelocityStdVertical_mps)
+                                       .cwiseAbs2();
+  return isFinite(fix) ? std::optional(fix) : std::nullopt;
 }
 
 void fill(const GnssFix& fix, const std::string& frame_id, sensor_msgs::NavSatFix& message) {

@@ -61,6 +61,13 @@ def fix(time_s):
     return message
 
 
+def velocity(time_s):
+    message = stamped(geometry_msgs.msg.TwistWithCovarianceStamped(), time_s)
+    message.twist.twist.linear.x = 0.8
+    message.twist.covariance[0] = message.twist.covariance[7] = message.twist.covariance[14] = 1e-3
+    return message
+
+
 def pose(time_s):
     message = stamped(geometry_msgs.msg.PoseStamped(), time_s)
     message.pose.orientation.w = 1.0
@@ -149,10 +156,10 @@ def write_sensor_messages():
     write_messages(folder / "imu_and_joints", running, drive)
     write_messages(folder / "imu_and_odometry", running,
                    [part for i in range(3) for part in ((0, imu(START_S + 0.1 * i)), (2, odometry(START_S + 0.1 * i, 0.5)))])
-    write_messages(folder / "fix_and_pose", running, [(3, fix(START_S)), (4, pose(START_S)), (0, imu(START_S))])
+    write_messages(folder / "fix_and_pose", running, [(3, fix(START_S)), (5, pose(START_S)), (0, imu(START_S))])
     for kind, name, message in ((0, "imu", imu(START_S)), (1, "joints", joints(START_S, 1.0)),
                                 (2, "odometry", odometry(START_S, 1.0)), (3, "fix", fix(START_S)),
-                                (4, "pose", pose(START_S))):
+                                (4, "velocity", velocity(START_S)), (5, "pose", pose(START_S))):
         write_messages(folder / name, running, [(kind, message)])
 
 

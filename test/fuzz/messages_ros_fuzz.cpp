@@ -109,6 +109,13 @@ class Rover {
           }
         });
         break;
+      case 4:
+        use<geometry_msgs::TwistWithCovarianceStamped>(reader, [this](const auto& m) {
+          if (const std::optional<VelocityFix> fix = toVelocityFix(m)) {
+            take(*fix);
+          }
+        });
+        break;
       default:
         use<geometry_msgs::PoseStamped>(reader, [](const auto& m) { checkTruth(toTruthSample(m)); });
         break;
@@ -118,7 +125,7 @@ class Rover {
 
   void finish() { merger_.flush(pass_); }
 
-  static constexpr int kTypes = 5;
+  static constexpr int kTypes = 6;
 
  private:
   template <class Message, class Use>

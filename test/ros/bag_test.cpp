@@ -24,6 +24,7 @@ struct Collected {
   std::vector<ImuSample> imu;
   std::vector<WheelMotion> wheels;
   std::vector<GnssFix> fixes;
+  std::vector<VelocityFix> velocities;
   std::vector<GnssFix> truth_fixes;
   std::vector<TruthSample> truth_poses;
 };
@@ -34,6 +35,7 @@ Collected readAll(const BagReader& reader) {
   sink.imu = [&all](const ImuSample& sample) { all.imu.push_back(sample); };
   sink.wheels = [&all](const WheelMotion& sample) { all.wheels.push_back(sample); };
   sink.fix = [&all](const GnssFix& sample) { all.fixes.push_back(sample); };
+  sink.velocity = [&all](const VelocityFix& sample) { all.velocities.push_back(sample); };
   sink.truth_fix = [&all](const GnssFix& sample) { all.truth_fixes.push_back(sample); };
   sink.truth_pose = [&all](const TruthSample& sample) { all.truth_poses.push_back(sample); };
   sink.truth_start = [](const NavigationState&, bool) {};

@@ -66,6 +66,26 @@ TEST(Conversions, AFixWithoutCovarianceIsAMatterOfMetres) {
   EXPECT_EQ(toGnssFix(message)->covariance_ned_m2.diagonal(), Vector3(25.0, 25.0, 100.0));
 }
 
+TEST(Conversions, VelocitiesAreTurnedToNorthEastDown) {
+  geometry_msgs::TwistWithCovarianceStamped message;
+  message.header.stamp = ros::Time(5, 7);
+  message.twist.twist.linear.x = 1.0;  // east
+  message.twist.twist.linear.y = 2.0;
+  message.twist.twist.linear.z = 3.0;
+  message.twist.covariance[0] = 0.1;
+  message.twist.covariance[7] = 0.2;
+  message.twist.covariance[14] = 0.3;
+  const std::optional<VelocityFix> fix = toVelocityFix(message);
+  ASSERT_TRUE(fix);
+  EXPECT_EQ(fix->stamp, 5'000'000'007);
+  EXPECT_EQ(fix->v_ea_n, Vector3(2.0, 1.0, -3.0));
+  EXPECT_EQ(fix->variance_ned_m2ps2, Vector3(0.2, 0.1, 0.3));
+  message.twist.covariance[7] = 0.0;
+  EXPECT_LT((toVelocityFix(message)->variance_ned_m2ps2 - Vector3(0.01, 0.01, 0.04)).norm(), 1e-15);
+  message.twist.twist.linear.z = kNan;
+  EXPECT_FALSE(toVelocityFix(message));
+}
+
 TEST(Conversions, TruthWithoutAttitudeHasNone) {
   nav_msgs::Odometry message;
   message.pose.pose.position.x = 3.0;

@@ -6,6 +6,7 @@
 /// bytes came over each link.
 
 #include <geometry_msgs/Twist.h>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
 #include <nav_msgs/Path.h>
@@ -39,6 +40,7 @@
 #include <vector>
 
 #include "slipnav/eval/simulated_drive.h"
+#include "slipnav/ros/conversions.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/parameters.h"
 #include "slipnav/ros/shared_publisher.h"
@@ -109,6 +111,7 @@ std::vector<Probe> probes(const TopicNames& topics) {
   all.push_back(probe<sensor_msgs::Imu>(topics.imu));
   all.push_back(probe<sensor_msgs::JointState>(topics.joint_states));
   all.push_back(probe<sensor_msgs::NavSatFix>(topics.gps_fix));
+  all.push_back(probe<geometry_msgs::TwistWithCovarianceStamped>(topics.gps_velocity));
   all.push_back(probe<sensor_msgs::NavSatFix>(topics.truth_fix));
   all.push_back(probe<geometry_msgs::Twist>(topics.cmd_vel_in));
   all.push_back(probe<StartState>(kInitialStateTopic));
@@ -292,9 +295,18 @@ class ZeroCopyDrive : public ZeroCopy {
                            [](std::size_t sum, const Probe& probe) { return sum + probe.second->received.size(); });
   }
 
+  /// Not finite: no start is made from it.
+  static geometry_msgs::TwistWithCovarianceStamped velocityAt(const ros::Time& stamp) {
+    geometry_msgs::TwistWithCovarianceStamped message;
+    message.header.stamp = stamp;
+    message.twist.twist.linear.x = std::numeric_limits<double>::quiet_NaN();
+    return message;
+  }
+
   void publish(const SimulatedSensors& sensors, const sim::Measurements& measured) {
     if (measured.gps) {
       fixes_.publish(sensors.fix(*measured.gps));
+      velocities_.publish(velocityAt(toRosTime(measured.gps->stamp)));
     }
     if (measured.truth) {
       truth_.publish(sensors.fix(*measured.truth));
@@ -321,6 +333,7 @@ class ZeroCopyDrive : public ZeroCopy {
   Source<sensor_msgs::Imu> imu_{node_, config_.topics.imu};
   Source<sensor_msgs::JointState> wheels_{node_, config_.topics.joint_states};
   Source<sensor_msgs::NavSatFix> fixes_{node_, config_.topics.gps_fix};
+  Source<geometry_msgs::TwistWithCovarianceStamped> velocities_{node_, config_.topics.gps_velocity};
   Source<sensor_msgs::NavSatFix> truth_{node_, config_.topics.truth_fix};
   Source<geometry_msgs::Twist> commands_{node_, config_.topics.cmd_vel_in};
 };
@@ -334,6 +347,7 @@ TEST_F(ZeroCopyDrive, EveryTopicPassesTheVeryObjects) {
   EXPECT_EQ(probeOf(config_.topics.imu).first->received, imu_.sent());
   EXPECT_EQ(probeOf(config_.topics.joint_states).first->received, wheels_.sent());
   EXPECT_EQ(probeOf(config_.topics.gps_fix).first->received, fixes_.sent());
+  EXPECT_EQ(probeOf(config_.topics.gps_velocity).first->received, velocities_.sent());
   EXPECT_EQ(probeOf(config_.topics.truth_fix).first->received, truth_.sent());
   EXPECT_EQ(probeOf(config_.topics.cmd_vel_in).first->received, commands_.sent());
 

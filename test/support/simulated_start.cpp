@@ -35,20 +35,26 @@ Start initialise(const Config& config, const Interference& interference) {
   Initializer initializer(planet, setup.initialization, setup.imu_input, setup.filter);
   Start start;
   std::vector<NavigationState> truths;
+  sim::RandomStream velocity_noise(static_cast<std::uint64_t>(config.simulator.seed), "satellite velocity");
   NeverStop policy;
   simulateDrive(config.simulator, planet, policy, [&](const sim::Measurements& m, const sim::TruthState& truth) {
     const double t_s = toSeconds(truth.stamp) - config.simulator.start_time_s;
     if (start.initial || t_s < interference.ignore_before_s) {
       return;
     }
+    truths.push_back(toNavState(truth, planet, config.imu.mount.position_b()));
     if (m.gps && interference.with_fixes) {
       initializer.push(toPositionFix(*m.gps));
+    }
+    if (m.gps && interference.velocity_std_mps > 0.0) {
+      const double std_mps = interference.velocity_std_mps;
+      initializer.push(VelocityFix{truth.stamp, truths.back().v_eb_n + std_mps * velocity_noise.normal3(),
+                                   Vector3::Constant(std_mps * std_mps)});
     }
     if (m.wheel) {
       initializer.push(toWheelMotion(geometry, *m.wheel));
     }
     initializer.push(m.imu);
-    truths.push_back(toNavState(truth, planet, config.imu.mount.position_b()));
     start.initial = initializer.result();
     if (start.said.empty() || start.said.back() != initializer.progress()) {
       start.said.push_back(initializer.progress());

@@ -23,6 +23,7 @@ struct Start {
 struct Interference {
   double ignore_before_s = 0.0;
   bool with_fixes = true;
+  double velocity_std_mps = 0.0;  ///< of satellite velocities at the rate of the fixes; 0: none
 };
 
 Start initialise(const Config& config, const Interference& interference = {});

@@ -98,8 +98,8 @@ TEST_F(Report, writesTheStateOfTheFilter) {
   EXPECT_EQ(contentOf("filter.csv"),
             "t,wheel_speed,accel_bias_x,accel_bias_y,accel_bias_z,accel_sigma_x,accel_sigma_y,accel_sigma_z,"
             "gyro_bias_x,gyro_bias_y,gyro_bias_z,gyro_sigma_x,gyro_sigma_y,gyro_sigma_z,nis_forward_speed,"
-            "nis_yaw_rate,nis_lateral,nis_vertical,nis_zero_velocity,nis_zero_rate,nis_fix_position\n"
-            "1602774000.500000000,0.75,1,2,3,4,5,6,7,8,9,10,11,12,0.5,nan,nan,nan,nan,1.5,nan\n");
+            "nis_yaw_rate,nis_lateral,nis_vertical,nis_zero_velocity,nis_zero_rate,nis_fix_position,nis_fix_velocity\n"
+            "1602774000.500000000,0.75,1,2,3,4,5,6,7,8,9,10,11,12,0.5,nan,nan,nan,nan,1.5,nan,nan\n");
 }
 
 TEST_F(Report, writesBaselineAndSlipForecasts) {

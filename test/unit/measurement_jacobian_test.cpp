@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "random_states.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/measurement/nonholonomic.h"
-#include "slipnav/measurement/position_fix.h"
 #include "slipnav/measurement/wheel_odometry.h"
 #include "slipnav/measurement/zero_motion.h"
 #include "wheel_speed.h"
@@ -17,11 +17,12 @@
 namespace slipnav::test {
 namespace {
 
-/// What a model is linearised about, and the raw rate that the gyros gave.
+/// What a model is linearised about, and what the IMU said.
 struct Point {
   NavigationState nav;
   VehicleState vehicle;
   Vector3 measured_rate_b = Vector3::Zero();
+  Vector3 measured_force_b = Vector3::Zero();
   Vector3 lever_b = Vector3::Zero();
 };
 
@@ -31,7 +32,8 @@ const Planet& earth() {
 }
 
 Point randomPoint(sim::RandomStream& random) {
-  return {randomState(random, 1.0), randomVehicle(random), 0.3 * random.normal3(), random.normal3()};
+  return {randomState(random, 1.0), randomVehicle(random), 0.3 * random.normal3(),
+          Vector3(0.0, 0.0, -9.8) + random.normal3(), random.normal3()};
 }
 
 BodyMotion motionOf(const Point& p) {
@@ -149,6 +151,25 @@ TEST(MeasurementJacobian, PositionFix) {
     EXPECT_LT((at_fix(point).H - numeric).cwiseAbs().maxCoeff(), 1e-3);
     EXPECT_GT(numeric.middleCols<3>(kAttitude).norm(), 0.1);
     EXPECT_NEAR(numeric.middleCols<3>(kPosition).norm(), std::sqrt(3.0), 1e-3);
+  }
+}
+
+TEST(MeasurementJacobian, VelocityFix) {
+  VelocityFix fix;
+  const auto model = [&fix](const Point& p) {
+    return velocityMeasurement(earth(), fix, p.nav, p.measured_force_b - p.nav.accel_bias_b,
+                               p.measured_rate_b - p.nav.gyro_bias_b, p.lever_b);
+  };
+  sim::RandomStream random(4, "velocity");
+  for (int i = 0; i < 10; ++i) {
+    const Point point = randomPoint(random);
+    fix.stamp = point.nav.stamp - fromSeconds(0.05);
+    const Eigen::MatrixXd numeric = numericJacobian(model, point);
+    EXPECT_LT((model(point).H - numeric).cwiseAbs().maxCoeff(), 1e-3);
+    EXPECT_GT(numeric.middleCols<3>(kAttitude).norm(), 0.1);
+    EXPECT_NEAR(numeric.middleCols<3>(kVelocity).norm(), std::sqrt(3.0), 1e-6);
+    EXPECT_NEAR(numeric.middleCols<3>(kAccelBias).norm(), 0.05 * std::sqrt(3.0), 1e-6);
+    EXPECT_GT(numeric.middleCols<3>(kGyroBias).norm(), 0.1);
   }
 }
 

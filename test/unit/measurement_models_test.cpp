@@ -6,9 +6,9 @@
 
 #include "slipnav/filter/kalman_update.h"
 #include "slipnav/math/rotation.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/measurement/imu_mount.h"
 #include "slipnav/measurement/nonholonomic.h"
-#include "slipnav/measurement/position_fix.h"
 #include "wheel_speed.h"
 
 namespace slipnav::test {
@@ -164,6 +164,59 @@ TEST(PositionFixModel, CarriesTheStateBackToTheFix) {
   fix.position = state.position;
   // 10 ms earlier the rover was 8 mm further west than now
   EXPECT_NEAR(positionMeasurement(earth, fix, state, Vector3::Zero()).residual(1), 0.008, 1e-9);
+}
+
+/// Turns left on the spot at 0.5 rad/s, heading east: an antenna 2 m ahead moves north.
+TEST(VelocityFixModel, TheAntennaMovesAboutTheImu) {
+  const Planet earth = Planet::byName("earth");
+  NavigationState state = eastbound();
+  state.v_eb_n.setZero();
+  VelocityFix fix;
+  fix.stamp = state.stamp;
+  fix.v_ea_n = Vector3(1.0, 0.0, 0.0);
+  const Vector3 turning_left(0.0, 0.0, -0.5);
+  const Vector3 ahead(2.0, 0.0, 0.0);
+  const Vector3 at_rest_b(0.0, 0.0, -9.8);
+  // but for the turn of the planet below the antenna
+  EXPECT_LT(velocityMeasurement(earth, fix, state, at_rest_b, turning_left, ahead).residual.norm(), 2e-4);
+  EXPECT_NEAR(velocityMeasurement(earth, fix, state, at_rest_b, Vector3::Zero(), ahead).residual.x(), 1.0, 2e-4);
+}
+
+/// An antenna that does not turn with respect to the planet does not move, wherever it is.
+TEST(VelocityFixModel, ThePlanetsRateIsNoMotion) {
+  const Planet earth = Planet::byName("earth");
+  NavigationState state = eastbound();
+  state.v_eb_n.setZero();
+  VelocityFix fix;
+  fix.stamp = state.stamp;
+  const Vector3 planet_rate_b = state.q_b_to_n.conjugate() * earth.omega_ie_n(state.position.latitude_rad);
+  const Vector3 far(1000.0, 2000.0, -3000.0);
+  const Measurement m = velocityMeasurement(earth, fix, state, Vector3::Zero(), planet_rate_b, far);
+  EXPECT_LT(m.residual.norm(), 1e-12);
+}
+
+TEST(VelocityFixModel, CarriesTheVelocityBackToTheFix) {
+  const Planet earth = Planet::byName("earth");
+  const NavigationState state = eastbound();
+  VelocityFix fix;
+  fix.stamp = state.stamp - fromSeconds(0.02);
+  fix.v_ea_n = state.v_eb_n - Vector3(0.0, 0.01, 0.0);  // 0.5 m/s² ahead for 20 ms
+  const Vector3 f_ib_n = Vector3(0.0, 0.5, 0.0) - earth.gravity_n(state.position);
+  const Vector3 f_ib_b = state.q_b_to_n.conjugate() * f_ib_n;
+  const Measurement m = velocityMeasurement(earth, fix, state, f_ib_b, Vector3::Zero(), Vector3::Zero());
+  EXPECT_LT(m.residual.norm(), 1e-12);
+}
+
+TEST(VelocityFixModel, AFasterAntennaSpeedsTheEstimateUp) {
+  const Planet earth = Planet::byName("earth");
+  VelocityFix fix;
+  fix.stamp = eastbound().stamp;
+  fix.v_ea_n = Vector3(0.0, kSpeed + 0.1, 0.0);
+  fix.variance_ned_m2ps2.setConstant(1e-4);
+  const Vector3 level(0.0, 0.0, -9.8);
+  const Measurement m = velocityMeasurement(earth, fix, eastbound(), level, Vector3::Zero(), Vector3::Zero());
+  EXPECT_EQ(m.variance, fix.variance_ned_m2ps2);
+  EXPECT_NEAR(corrected(m, eastbound()).v_eb_n.y(), kSpeed + 0.1, 0.002);
 }
 
 TEST(PositionFixModel, TakesDegreesFromTheReceiver) {

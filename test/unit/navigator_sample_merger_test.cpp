@@ -31,9 +31,9 @@ PositionFix fixAt(Nanoseconds ms) {
   return sample;
 }
 
-/// "i20" for an IMU sample at 20 ms, w for wheels, f for fixes.
+/// "i20" for an IMU sample at 20 ms, w for wheels, f for positions, v for velocities.
 std::string describe(const Sample& sample) {
-  return std::string(1, "iwf"[sample.index()]) + std::to_string(stampOf(sample) / kMillisecond);
+  return std::string(1, "iwfv"[sample.index()]) + std::to_string(stampOf(sample) / kMillisecond);
 }
 
 class SampleMergerTest : public ::testing::Test {

@@ -6,7 +6,7 @@
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/ins/imu_screen.h"
 #include "slipnav/ins/strapdown.h"
-#include "slipnav/measurement/position_fix.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/sensors.h"
 
 namespace slipnav {

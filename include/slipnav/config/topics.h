@@ -13,6 +13,7 @@ struct TopicNames {
   std::string joint_states = "joint_states";
   std::string wheel_odometry = "wheel_odometry";
   std::string gps_fix = "gps/fix";
+  std::string gps_velocity = "gps/velocity";
   std::string truth_fix = "truth/fix";
   std::string truth_odometry = "truth/odometry";
   std::string truth_pose = "truth/pose";

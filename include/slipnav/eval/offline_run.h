@@ -31,7 +31,7 @@ class OfflineRun {
 
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
-  void push(const PositionFix& fix);
+  void push(const AntennaFix& fix);
   void setTruth(const NavigationState& truth, bool has_attitude);
 
   /// Truth for metrics and plots only.

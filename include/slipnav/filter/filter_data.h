@@ -50,6 +50,7 @@ enum Component : int {
   kZeroVelocity,
   kZeroRate,
   kFixPosition,
+  kFixVelocity,
   kComponents
 };
 

@@ -20,7 +20,7 @@
 #include "slipnav/filter/unseen_motion.h"
 #include "slipnav/filter/wheel_queue.h"
 #include "slipnav/ins/ins_engine.h"
-#include "slipnav/measurement/position_fix.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/slip/stationary_detector.h"
 
 namespace slipnav {
@@ -46,8 +46,8 @@ class FilterEngine {
   void push(const InsStep& step);
   /// Takes a wheel sample; false when it is not finite, repeated, or lies before what has been processed.
   bool push(const WheelMotion& wheels);
-  /// Takes a position fix, used while initialising; false as above.
-  bool push(const PositionFix& fix);
+  /// Takes a satellite position or velocity, used while initialising; false as above.
+  bool push(const AntennaFix& fix);
 
   /// Puts the state that was processed last to another place. What is known of velocity in body axes, tilt, biases and
   /// slip stays. Throws std::invalid_argument for impossible numbers, and when nothing has been processed yet.
@@ -89,7 +89,7 @@ class FilterEngine {
   bool applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion);
   MeasurementSet movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const;
   MeasurementSet restingMeasurements(const BodyMotion& motion) const;
-  bool applyFixes();
+  bool applyFixes(const InsStep& step);
   PlanarMotion soundMotion(const WheelMotion& wheels) const;
   bool update(MeasurementSet set);
   void turnTo(double heading_rad, double heading_std_rad);
@@ -119,7 +119,7 @@ class FilterEngine {
 
   RingQueue<InsStep> steps_;
   WheelQueue wheels_;
-  RingQueue<PositionFix> fixes_;         ///< not yet applied, by stamp
+  RingQueue<AntennaFix> fixes_;          ///< not yet applied, by stamp
   Nanoseconds slipping_until_ = 0;       ///< a slip impulse makes the wheel speed useless until then
   double recent_wheel_speed_mps_ = 0.0;  ///< of the samples before the present one, smoothed
   MeanMotion average_;                   ///< over the wheel interval that is open

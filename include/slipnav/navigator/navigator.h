@@ -18,7 +18,7 @@ class Navigator {
   /// Each takes a sample and works off what has become certain by it.
   ImuVerdict push(const ImuSample& sample, const FilterEngine::EstimateSink& sink);
   bool push(const WheelMotion& wheels, const FilterEngine::EstimateSink& sink);
-  bool push(const PositionFix& fix) { return filter_.push(fix); }
+  bool push(const AntennaFix& fix) { return filter_.push(fix); }
 
   /// Says that nothing up to `stamp` is still to come, and works it off.
   void completeUpTo(Nanoseconds stamp, const FilterEngine::EstimateSink& sink);

@@ -33,8 +33,8 @@ class Pipeline {
 
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
-  /// Satellite position; has no effect once the initialisation has ended.
-  void push(const PositionFix& fix);
+  /// Satellite position or velocity; has no effect once the initialisation has ended.
+  void push(const AntennaFix& fix);
   /// For the initialisation source `truth`.
   void setTruth(const NavigationState& truth, bool has_attitude);
 

@@ -15,17 +15,13 @@
 #include <variant>
 
 #include "slipnav/filter/filter_data.h"
-#include "slipnav/measurement/position_fix.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/navigator/imu_sorter.h"
 #include "slipnav/navigator/jump_filter.h"
 
 namespace slipnav {
 
-using Sample = std::variant<ImuSample, WheelMotion, PositionFix>;
-
-inline Nanoseconds stampOf(const Sample& sample) {
-  return std::visit([](const auto& s) { return s.stamp; }, sample);
-}
+using Sample = std::variant<ImuSample, WheelMotion, PositionFix, VelocityFix>;
 
 /// One queue per sensor; the earliest sample of all goes first.
 class SampleMerger {
@@ -81,7 +77,7 @@ class SampleMerger {
   bool isCertain(const Instant& instant, const Instant& trusted) const;
 
   Nanoseconds max_wait_;
-  std::tuple<JumpFilter<ImuSample>, JumpFilter<WheelMotion>, JumpFilter<PositionFix>> filters_;
+  std::tuple<JumpFilter<ImuSample>, JumpFilter<WheelMotion>, JumpFilter<PositionFix>, JumpFilter<VelocityFix>> filters_;
   ImuSorter imu_sorter_;
   std::array<Stream, std::variant_size_v<Sample>> streams_;
   Instant newest_imu_;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "slipnav/filter/filter_data.h"
-#include "slipnav/measurement/position_fix.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/slip/stationary_detector.h"
 
 namespace slipnav {
@@ -30,11 +30,12 @@ class StartRecording {
   /// Samples in order of stamp, of all sensors together; one that is not finite or not later is left out.
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
-  void push(const PositionFix& fix);
+  void push(const AntennaFix& fix);
 
   const std::vector<ImuSample>& imu() const { return imu_; }
   const std::vector<WheelMotion>& wheels() const { return wheels_; }
   const std::vector<PositionFix>& fixes() const { return fixes_; }
+  const std::vector<VelocityFix>& velocityFixes() const { return velocity_fixes_; }
   const Rest& rest() const { return rest_; }
   bool restIsLongEnough() const { return toSeconds(rest_.end - rest_.begin) >= min_rest_s_; }
 
@@ -58,6 +59,7 @@ class StartRecording {
   std::vector<ImuSample> imu_;
   std::vector<WheelMotion> wheels_;
   std::vector<PositionFix> fixes_;
+  std::vector<VelocityFix> velocity_fixes_;
   Rest rest_;
 };
 

@@ -9,6 +9,7 @@
 #include "slipnav/config/config.h"
 #include "slipnav/eval/truth_track.h"
 #include "slipnav/filter/filter_data.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/sensors.h"
 
 namespace slipnav {
@@ -18,6 +19,7 @@ struct BagSink {
   std::function<void(const ImuSample&)> imu;
   std::function<void(const WheelMotion&)> wheels;
   std::function<void(const GnssFix&)> fix;
+  std::function<void(const VelocityFix&)> velocity;
   /// For `initialization.source: truth` only: the first truth as the state of the IMU, and whether it has an attitude.
   std::function<void(const NavigationState&, bool)> truth_start;
   std::function<void(const GnssFix&)> truth_fix;

@@ -4,6 +4,7 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <ros/time.h>
 #include <sensor_msgs/Imu.h>
@@ -19,6 +20,7 @@
 #include "slipnav/eval/estimate.h"
 #include "slipnav/eval/truth_track.h"
 #include "slipnav/filter/filter_data.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/measurement/imu_mount.h"
 #include "slipnav/navigator/output.h"
 #include "slipnav/sensors.h"
@@ -39,7 +41,11 @@ ImuSample toImuSample(const sensor_msgs::Imu& message, const ImuMount& mount);
 /// covariance, 5 m horizontally and 10 m vertically (1σ) are taken.
 std::optional<GnssFix> toGnssFix(const sensor_msgs::NavSatFix& message);
 
-/// The other way round.
+/// Linear velocity of the antenna, east, north, up. Nothing when it is not finite. Where the receiver does not know its
+/// covariance (a diagonal that is not positive), 0.1 m/s horizontally and 0.2 m/s vertically (1σ) are taken.
+std::optional<VelocityFix> toVelocityFix(const geometry_msgs::TwistWithCovarianceStamped& message);
+
+/// A fix as a message.
 void fill(const GnssFix& fix, const std::string& frame_id, sensor_msgs::NavSatFix& message);
 
 /// A pose of truth, in whatever frame it is. Nothing when it is not finite.

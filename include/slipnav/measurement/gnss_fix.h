@@ -1,0 +1,46 @@
+#pragma once
+/// Satellite position and velocity of the antenna (Groves 14.3.1, loosely coupled), for initialisation only.
+
+#include <variant>
+
+#include "slipnav/earth/planet.h"
+#include "slipnav/filter/kalman_update.h"
+#include "slipnav/sensors.h"
+
+namespace slipnav {
+
+/// Position of the antenna and its variances, uncorrelated.
+struct PositionFix {
+  Nanoseconds stamp = 0;
+  Geodetic position;
+  Vector3 variance_ned_m2 = Vector3::Ones();
+};
+
+/// Velocity of the antenna with respect to the planet and its variances, uncorrelated.
+struct VelocityFix {
+  Nanoseconds stamp = 0;
+  Vector3 v_ea_n = Vector3::Zero();  ///< north-east-down [m/s]
+  Vector3 variance_ned_m2ps2 = Vector3::Ones();
+};
+
+/// Whatever a receiver says, one kind at a time.
+using AntennaFix = std::variant<PositionFix, VelocityFix>;
+
+bool isFinite(const PositionFix& fix);
+bool isFinite(const VelocityFix& fix);
+
+PositionFix toPositionFix(const GnssFix& fix);
+
+/// Antenna position, north-east-down metres, three rows.
+/// @param state at or up to one IMU interval after the fix; its position is carried back to the stamp of the fix
+/// @param lever_b from the IMU to the antenna [m]
+Measurement positionMeasurement(const Planet& planet, const PositionFix& fix, const NavigationState& state,
+                                const Vector3& lever_b);
+
+/// Antenna velocity, north-east-down [m/s], three rows.
+/// @param state as above; its velocity is carried back by the acceleration of its last step
+/// @param f_ib_b, omega_ib_b mean specific force [m/s²] and rate [rad/s] of that step, free of the biases in `state`
+Measurement velocityMeasurement(const Planet& planet, const VelocityFix& fix, const NavigationState& state,
+                                const Vector3& f_ib_b, const Vector3& omega_ib_b, const Vector3& lever_b);
+
+}  // namespace slipnav
