@@ -14,6 +14,9 @@ namespace {
 // Length scales from which a cold fit starts, over the mean of the prior.
 constexpr std::array<double, 3> kColdStarts = {1.0, 0.3, 3.0};
 
+// Between logarithms of hyperparameters: a scout that went farther is not believed without a look.
+constexpr double kFarMove = 1.0;
+
 SlipFitStatus statusOf(FitOutcome outcome) {
   switch (outcome) {
     case FitOutcome::kConverged:
@@ -24,6 +27,24 @@ SlipFitStatus statusOf(FitOutcome outcome) {
       break;
   }
   return SlipFitStatus::kDefaults;
+}
+
+// Where the posterior is highest; the last point when none of them suits the samples.
+Eigen::VectorXd bestOf(GaussianProcess& process, const std::vector<LogPrior>& priors,
+                       const std::vector<Eigen::VectorXd>& points) {
+  Eigen::VectorXd best = points.back();
+  double best_value = std::numeric_limits<double>::infinity();
+  for (const Eigen::VectorXd& point : points) {
+    try {
+      const double value = negativeLogPosterior(process, priors, point, nullptr);
+      if (value < best_value) {
+        best_value = value;
+        best = point;
+      }
+    } catch (const std::runtime_error&) {  // not a likelihood at all
+    }
+  }
+  return best;
 }
 
 }  // namespace
@@ -58,6 +79,7 @@ GaussianProcessSlipModel::GaussianProcessSlipModel(const SlipModelParameters& pa
   if (parameters.inference == "dense") {
     scout_ = std::make_unique<StateSpaceGaussianProcess>(latent_);
   }
+  markov_ = scout_ ? scout_.get() : static_cast<StateSpaceGaussianProcess*>(process_.get());
 }
 
 GaussianProcessSlipModel::GaussianProcessSlipModel(const SlipModelParameters& parameters,
@@ -108,18 +130,33 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::chooseHyperparameters
 
 GaussianProcessSlipModel::Choice GaussianProcessSlipModel::search(const SlipWindow& window,
                                                                   const std::vector<LogPrior>& priors) {
-  GaussianProcess& searched = scout_ ? *scout_ : *process_;
+  GaussianProcess& searched = markov_ != nullptr ? *markov_ : *process_;
   searched.setSamples(window.times, window.slips);
   int evaluations = 0;
-  Choice choice = fitFrom(searched, priors, startPoints(searched, priors, evaluations));
+  const std::vector<Eigen::VectorXd> starts = startPoints(searched, priors, evaluations);
+  Choice choice =
+      starts.size() == 1 ? fitFromNearby(searched, priors, starts.front()) : fitFrom(searched, priors, starts);
   evaluations += choice.evaluations;
   if (scout_) {
-    choice = choice.status == SlipFitStatus::kDefaults ? fitFrom(*process_, priors, {choice.log_parameters})
-                                                       : refine(priors, choice.log_parameters);
+    choice = fitFromNearby(*process_, priors, afterScout(priors, choice.log_parameters));
     evaluations += choice.evaluations;
   }
   choice.evaluations = evaluations;
   return choice;
+}
+
+// Where the dense fit goes on. Far from noise and at long length scales the scout's RBF is another one than the dense,
+// and can lead away from where the last dense fit ended.
+Eigen::VectorXd GaussianProcessSlipModel::afterScout(const std::vector<LogPrior>& priors,
+                                                     const Eigen::VectorXd& scouted) {
+  if (!last_good_) {
+    return scouted;
+  }
+  const Eigen::VectorXd last = clampToBounds(*last_good_, priors);
+  if ((last - scouted).norm() < kFarMove) {
+    return scouted;
+  }
+  return bestOf(*process_, priors, {scouted, last});
 }
 
 // The best of the local fits; status kDefaults and the prior's means when none of them ended well.
@@ -141,17 +178,34 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::fitFrom(GaussianProce
   return choice;
 }
 
-// From where the scout has ended, with its curvature and that of the priors.
-GaussianProcessSlipModel::Choice GaussianProcessSlipModel::refine(const std::vector<LogPrior>& priors,
-                                                                  const Eigen::VectorXd& start) {
-  Eigen::MatrixXd curvature = scout_->information(start);
-  for (Eigen::Index i = 0; i < start.size(); ++i) {
-    const double stddev = priors[static_cast<std::size_t>(i)].stddev;
-    curvature(i, i) += 1.0 / (stddev * stddev);
+// With the curvature at the start, of the samples and the priors; without it where the start does not suit the samples.
+GaussianProcessSlipModel::Choice GaussianProcessSlipModel::fitFromNearby(GaussianProcess& process,
+                                                                         const std::vector<LogPrior>& priors,
+                                                                         const Eigen::VectorXd& start) {
+  const std::optional<Eigen::MatrixXd> curvature = curvatureAt(priors, start);
+  if (!curvature) {
+    return fitFrom(process, priors, {start});
   }
   const HyperparameterFit fit =
-      refineHyperparameters(*process_, priors, start, curvature, {parameters_.max_evaluations, parameters_.tolerance});
+      refineHyperparameters(process, priors, start, *curvature, {parameters_.max_evaluations, parameters_.tolerance});
   return {statusOf(fit.outcome), fit.log_parameters, fit.evaluations + 1};
+}
+
+std::optional<Eigen::MatrixXd> GaussianProcessSlipModel::curvatureAt(const std::vector<LogPrior>& priors,
+                                                                     const Eigen::VectorXd& start) {
+  if (markov_ == nullptr) {
+    return std::nullopt;
+  }
+  try {
+    Eigen::MatrixXd curvature = markov_->information(start);
+    for (Eigen::Index i = 0; i < start.size(); ++i) {
+      const double stddev = priors[static_cast<std::size_t>(i)].stddev;
+      curvature(i, i) += 1.0 / (stddev * stddev);
+    }
+    return curvature;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 // All cold starts; after a good fit the best of its hyperparameters and of the cold starts.
@@ -167,20 +221,8 @@ std::vector<Eigen::VectorXd> GaussianProcessSlipModel::startPoints(GaussianProce
     return starts;
   }
   starts.push_back(clampToBounds(*last_good_, priors));
-  Eigen::VectorXd best = starts.back();
-  double best_value = std::numeric_limits<double>::infinity();
-  for (const Eigen::VectorXd& start : starts) {
-    ++evaluations;
-    try {
-      const double value = negativeLogPosterior(process, priors, start, nullptr);
-      if (value < best_value) {
-        best_value = value;
-        best = start;
-      }
-    } catch (const std::runtime_error&) {  // does not suit this window at all
-    }
-  }
-  return {best};
+  evaluations += static_cast<int>(starts.size());
+  return {bestOf(process, priors, starts)};
 }
 
 bool GaussianProcessSlipModel::adopt(const SlipWindow& window, const Eigen::VectorXd& log_parameters) {

@@ -67,7 +67,9 @@ class GaussianProcessSlipModel : public SlipModel {
                                            int& evaluations) const;
   Choice fitFrom(GaussianProcess& process, const std::vector<LogPrior>& priors,
                  const std::vector<Eigen::VectorXd>& starts) const;
-  Choice refine(const std::vector<LogPrior>& priors, const Eigen::VectorXd& start);
+  Eigen::VectorXd afterScout(const std::vector<LogPrior>& priors, const Eigen::VectorXd& scouted);
+  Choice fitFromNearby(GaussianProcess& process, const std::vector<LogPrior>& priors, const Eigen::VectorXd& start);
+  std::optional<Eigen::MatrixXd> curvatureAt(const std::vector<LogPrior>& priors, const Eigen::VectorXd& start);
   bool adopt(const SlipWindow& window, const Eigen::VectorXd& log_parameters);
   SlipFit report(const SlipWindow& window, SlipFitStatus status, int evaluations) const;
   Eigen::VectorXd sinceOrigin(const Eigen::VectorXd& times_s) const;
@@ -75,7 +77,8 @@ class GaussianProcessSlipModel : public SlipModel {
   SlipModelParameters parameters_;
   LatentModel latent_;
   std::unique_ptr<GaussianProcess> process_;
-  std::unique_ptr<StateSpaceGaussianProcess> scout_;  ///< cheaper form for the search, where there is one
+  std::unique_ptr<StateSpaceGaussianProcess> scout_;  ///< cheaper form of a dense process, for the search
+  StateSpaceGaussianProcess* markov_ = nullptr;       ///< the scout, or the process itself if it is of that form
   std::optional<Conditioned> current_;
   std::optional<Eigen::VectorXd> last_good_;  ///< hyperparameters of the last fit that ended well
 };
