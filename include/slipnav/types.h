@@ -18,6 +18,8 @@ using Quaternion = Eigen::Quaterniond;
 /// Stamps are integer nanoseconds of the message header: differences are exact and equal stamps compare equal.
 using Nanoseconds = std::int64_t;
 
+inline constexpr Nanoseconds kSecond = 1'000'000'000;
+
 inline constexpr double kPi = 3.14159265358979323846;
 
 constexpr double toSeconds(Nanoseconds t) { return static_cast<double>(t) * 1e-9; }

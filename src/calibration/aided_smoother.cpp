@@ -7,6 +7,7 @@
 
 #include "slipnav/filter/error_dynamics.h"
 #include "slipnav/filter/kalman_update.h"
+#include "slipnav/math/square.h"
 #include "slipnav/slip/stationary_detector.h"
 
 namespace slipnav {
@@ -16,8 +17,6 @@ constexpr double kStartTiltStd_rad = 0.05;
 constexpr double kStartHeadingStd_rad = 0.2;
 constexpr double kStartSpeedStd_mps = 0.2;
 constexpr double kStartPositionStd_m = 1.0;
-
-double square(double x) { return x * x; }
 
 AidedCovariance startCovariance(const ErrorDynamics& dynamics) {
   AidedVector variance = AidedVector::Zero();

@@ -10,7 +10,7 @@ namespace {
 /// An angle that is less well known than this is not worth giving.
 constexpr double kWorstStd_rad = 0.02;
 /// Less turning than this does not tell the centre of turn from the mounting.
-constexpr double kLeastTurn_rad = 1.5;
+constexpr double kLeastTurnForCentre_rad = 1.5;
 
 /// Mean variance of the smoothed attitude about one axis, weighted like the regression.
 double meanVariance(const std::vector<MotionSample>& samples, int axis) {
@@ -35,7 +35,7 @@ std::optional<Calibrated> angleOf(const RegressionResult& fit, double attitude_v
 
 /// v_y = −tan ψ v_x − x_c ω_z: course against nose, and the point that does not move sideways in turns.
 void calibrateYaw(double batch_m, const std::vector<MotionSample>& samples, CalibrationResult& result) {
-  const bool turns = result.turned_rad >= kLeastTurn_rad;
+  const bool turns = result.turned_rad >= kLeastTurnForCentre_rad;
   RegressionProblem problem(turns ? 2 : 1);
   for (const MotionSample& sample : samples) {
     const Eigen::Vector2d row(-sample.v_eb_b.x(), -sample.omega_eb_b.z());

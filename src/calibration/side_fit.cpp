@@ -5,6 +5,7 @@
 #include <map>
 
 #include "slipnav/calibration/batch_regression.h"
+#include "slipnav/math/square.h"
 
 namespace slipnav {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 constexpr double kLeastSpeedNoise = 0.01;
 /// Cells are shorter than turns and longer than what slip and steering do to each other.
 constexpr double kCellsPerBatch = 4.0;
-
-double square(double x) { return x * x; }
 
 /// Means over a cell of the drive: y = row · (half difference, gain) + error.
 struct TurnRow {

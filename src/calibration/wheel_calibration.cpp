@@ -4,20 +4,19 @@
 
 #include "side_fit.h"
 #include "slipnav/calibration/batch_regression.h"
+#include "slipnav/math/square.h"
 
 namespace slipnav {
 namespace {
 
 /// Less turning than this says nothing about scrubbing.
-constexpr double kLeastTurn_rad = 1.5;
+constexpr double kLeastTurnForScrub_rad = 1.5;
 /// Stretches into which the firm ground is divided; slip there forgets itself within a metre or two.
 constexpr double kFirmBatches = 8.0;
 /// Firm ground on which the wheels slip more than elsewhere, by so many standard deviations, is none.
 constexpr double kFirmDoubt = 3.0;
 /// Ground with more slip than this is no ground to calibrate on.
 constexpr double kSoftSlip = 0.03;
-
-double square(double x) { return x * x; }
 
 /// Speed of the vehicle's middle line by the wheels, with the right difference between the sides.
 double wheelSpeed(const Sides& sides, const SideFit& fit, const MotionSample& sample) {
@@ -131,7 +130,7 @@ void calibrateWheels(const Config& config, const std::vector<MotionSample>& samp
     result.not_observable.push_back(
         "scrub factor, and radii side by side: there are no speeds of wheels to both sides");
   } else {
-    const bool turns = result.turned_rad >= kLeastTurn_rad;
+    const bool turns = result.turned_rad >= kLeastTurnForScrub_rad;
     side_fit = fitSides(sides, params.batch_m, config.wheel.scrub_factor, turns, samples);
     const std::optional<Calibrated> whole_drive = speedRatio(sides, side_fit, samples, params.batch_m);
     result.track_m = sides.track();

@@ -10,7 +10,6 @@ namespace slipnav {
 namespace {
 
 constexpr std::size_t kDecimals = 9;
-constexpr Nanoseconds kSecond = 1'000'000'000;
 
 /// Digits of seconds whose nanoseconds fit 64 bits.
 constexpr std::size_t kMaxWholeDigits = 9 + 1;
@@ -71,5 +70,7 @@ std::string formatSeconds(Nanoseconds t) {
   return (t < 0 ? "-" : "") + std::to_string(magnitude / kSecond) + "." +
          std::string(kDecimals - decimals.size(), '0') + decimals;
 }
+
+void writeVector(std::ostream& out, const Vector3& v) { out << ',' << v.x() << ',' << v.y() << ',' << v.z(); }
 
 }  // namespace slipnav

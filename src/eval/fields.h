@@ -1,6 +1,7 @@
 #pragma once
 /// Fields of text files, independent of the locale.
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,8 @@ Nanoseconds secondsField(const std::string& field);
 
 /// Seconds with nine decimals, exact; the inverse of secondsField().
 std::string formatSeconds(Nanoseconds t);
+
+/// The components, each after a comma.
+void writeVector(std::ostream& out, const Vector3& v);
 
 }  // namespace slipnav

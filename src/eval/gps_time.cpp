@@ -7,7 +7,6 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
 constexpr Nanoseconds kDay = 86'400 * kSecond;
 constexpr int kDaysPerWeek = 7;
 

@@ -52,8 +52,6 @@ class JsonObject {
 /// The number, or NaN, which streams as `nan`, where there is none.
 double orNan(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
 
-void writeVector(std::ostream& out, const Vector3& v) { out << ',' << v.x() << ',' << v.y() << ',' << v.z(); }
-
 /// One column of the table: two header lines, and how the figures of a row are written.
 struct Column {
   const char* group;

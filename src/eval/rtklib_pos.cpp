@@ -20,7 +20,7 @@ using Fields = std::vector<std::string>;
 enum class TimeSystem { kGpst, kUtc, kJst };
 enum class Layout { kDegrees, kDegreesMinutesSeconds, kEcef, kBaseline };
 
-constexpr Nanoseconds kJstAheadOfUtc = 9 * 3600 * Nanoseconds{1'000'000'000};
+constexpr Nanoseconds kJstAheadOfUtc = 9 * 3600 * kSecond;
 
 /// Time, three coordinates, Q, ns and the six elements of the covariance.
 constexpr std::size_t kMinColumns = 12;

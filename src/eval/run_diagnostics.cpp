@@ -14,8 +14,6 @@ namespace {
 /// Enough for plots.
 constexpr int kDigits = 8;
 
-void writeVector(std::ostream& out, const Vector3& v) { out << ',' << v.x() << ',' << v.y() << ',' << v.z(); }
-
 Vector3 sigmas(const ErrorCovariance& P, int first) { return P.diagonal().segment<3>(first).cwiseMax(0.0).cwiseSqrt(); }
 
 }  // namespace

@@ -3,13 +3,12 @@
 #include <cmath>
 
 #include "slipnav/math/rotation.h"
+#include "slipnav/math/square.h"
 
 namespace slipnav {
 namespace {
 
 constexpr double kSecondsPerHour = 3600.0;
-
-double square(double x) { return x * x; }
 
 NavigationState midpoint(const NavigationState& start, const NavigationState& end) {
   NavigationState middle = end;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "slipnav/math/rotation.h"
+#include "slipnav/math/square.h"
 
 namespace slipnav {
 namespace {
@@ -19,8 +20,6 @@ constexpr double kIntervalTolerance_s = 1e-3;
 bool earlier(const AntennaFix& a, const AntennaFix& b) {
   return std::pair(stampOf(a), a.index()) < std::pair(stampOf(b), b.index());
 }
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

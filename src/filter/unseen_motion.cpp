@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "slipnav/math/rotation.h"
+#include "slipnav/math/square.h"
 
 namespace slipnav {
 namespace {
 
 constexpr double kSettling_s = 10.0;
 constexpr int kAgreements = 10;  // a second of standstill, as a rule
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "slipnav/math/square.h"
+
 namespace slipnav {
 namespace {
 
 /// A share of zero would be an infinite variance.
 constexpr double kLeastShare = 1e-6;
-
-double square(double x) { return x * x; }
 
 double horizontalStd(const ErrorCovariance& P) {
   return std::sqrt(std::max(P(kPosition, kPosition) + P(kPosition + 1, kPosition + 1), 0.0));  // NaN stays NaN

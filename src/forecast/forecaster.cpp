@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "slipnav/math/square.h"
 #include "slipnav/slip/slip_ratio.h"
 #include "slipnav/slip/vehicle_slip.h"
 
@@ -14,8 +15,6 @@ constexpr int kCorrelationPoints = 61;
 
 /// Slower than this share of the fastest is starting or stopping.
 constexpr double kCruisingShare = 0.7;
-
-double square(double x) { return x * x; }
 
 /// Position in 0 … count − 1 that goes to and fro.
 std::size_t toAndFro(std::size_t i, std::size_t count) {

@@ -2,13 +2,13 @@
 
 #include <cmath>
 
+#include "slipnav/math/square.h"
+
 namespace slipnav {
 namespace {
 
 /// Standard deviations beyond which a lateral speed is real.
 constexpr double kSignificant = 3.0;
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

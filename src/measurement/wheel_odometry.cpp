@@ -1,11 +1,8 @@
 #include "slipnav/measurement/wheel_odometry.h"
 
+#include "slipnav/math/square.h"
+
 namespace slipnav {
-namespace {
-
-double square(double x) { return x * x; }
-
-}  // namespace
 
 void WheelOdometryParams::visit(ParameterVisitor& v) {
   v.choice("source", source, {"auto", "joint_states", "wheel_odometry"},

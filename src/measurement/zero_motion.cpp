@@ -3,14 +3,9 @@
 #include <algorithm>
 
 #include "slipnav/math/rotation.h"
+#include "slipnav/math/square.h"
 
 namespace slipnav {
-namespace {
-
-double square(double x) { return x * x; }
-
-}  // namespace
-
 void ZeroMotionParams::visit(ParameterVisitor& v) {
   v.number("velocity_std_mps", velocity_std_mps, {1e-7, 1.0},
            "1σ of the velocity at standstill before anything is learned [m/s]");

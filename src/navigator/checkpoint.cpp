@@ -15,6 +15,7 @@
 
 #include "slipnav/config/text.h"
 #include "slipnav/eval/atomic_file.h"
+#include "slipnav/math/square.h"
 
 namespace slipnav {
 namespace {
@@ -166,8 +167,6 @@ std::string readFile(const std::string& path) {
 }
 
 std::string previousOf(const std::string& file) { return file + ".1"; }
-
-double square(double x) { return x * x; }
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 
 #include "slipnav/ins/levelling.h"
 #include "slipnav/math/rotation.h"
+#include "slipnav/math/square.h"
 #include "slipnav/navigator/navigator.h"
 
 namespace slipnav {
@@ -18,8 +19,6 @@ constexpr double kFixStdFactor = 3.0;
 // An attitude or position that is called the truth still ends up in a matrix that has to be inverted.
 constexpr double kTruthAttitudeStd_rad = 1e-5;
 constexpr double kTruthVelocityStd_mps = 1e-3;
-
-double square(double x) { return x * x; }
 
 Vector3 inBodyAxes(const std::vector<double>& values, double unit) {
   return unit * Vector3(values.at(0), values.at(1), values.at(2));

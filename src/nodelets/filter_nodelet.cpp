@@ -38,7 +38,7 @@ namespace slipnav {
 namespace {
 
 /// How often the state is handed over, in time of the stamps.
-constexpr Nanoseconds kHandOverInterval = 1'000'000'000;
+constexpr Nanoseconds kHandOverInterval = kSecond;
 
 }  // namespace
 

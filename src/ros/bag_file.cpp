@@ -11,7 +11,6 @@ namespace slipnav {
 namespace {
 
 constexpr char kFirstLine[] = "#ROSBAG V2.0\n";
-constexpr Nanoseconds kBillion = 1000000000;
 
 /// A chunk is not unpacked when it claims to become larger than its method can make it: LZ4 spends a byte on 255, BZ2
 /// at least 32 bytes on a block of 900 kB.
@@ -123,7 +122,7 @@ void BagFile::readIndex(std::uint64_t chunk, std::uint32_t topics) {
 
 void BagFile::addEntry(ByteReader& bytes, std::uint64_t chunk, std::uint32_t connection_id) {
   const Nanoseconds seconds = bytes.number<std::uint32_t>();
-  const Nanoseconds time = seconds * kBillion + bytes.number<std::uint32_t>();
+  const Nanoseconds time = seconds * kSecond + bytes.number<std::uint32_t>();
   const auto offset = bytes.number<std::uint32_t>();
   if (time > 0) {  // rosbag leaves the others out, too
     entries_.push_back({time, chunk, offset, connection_id});

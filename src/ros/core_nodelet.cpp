@@ -41,12 +41,9 @@ void CoreNodelet::onInit() {
         status.add("changed while running", tuning_->changes());
       }
     });
-    tick_timer_ =
-        node_.createWallTimer(ros::WallDuration(tickInterval_s()), [this](const ros::WallTimerEvent&) { tick(); });
-    diagnostics_timer_ =
-        node_.createWallTimer(ros::WallDuration(kDiagnosticsInterval_s),
-                              [this](const ros::WallTimerEvent&) { guarded([this] { updater_->force_update(); }); });
     advertise(config_);
+    ticks_ = thread_->repeat(tickInterval_s(), [this] { tick(); });
+    diagnostics_ = thread_->repeat(kDiagnosticsInterval_s, [this] { guarded([this] { updater_->force_update(); }); });
   } catch (const std::exception& error) {
     subscribers_.clear();
     services_.clear();
@@ -66,8 +63,8 @@ void CoreNodelet::chooseThread() {
 }
 
 void CoreNodelet::stop() {
-  tick_timer_.stop();
-  diagnostics_timer_.stop();
+  ticks_ = {};
+  diagnostics_ = {};
   subscribers_.clear();
   services_.clear();
   tuning_.reset();

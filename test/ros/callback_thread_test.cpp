@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <boost/make_shared.hpp>
+#include <chrono>
 #include <functional>
 #include <future>
 
@@ -40,6 +42,48 @@ TEST(CallbackThread, EndsWithItsLastUserAndBeginsAnew) {
   thread.reset();
   EXPECT_TRUE(observer.expired());
   EXPECT_NE(threadThatServes(*CallbackThread::shared("/navigation")), std::this_thread::get_id());
+}
+
+TEST(CallbackThread, RepeatsWorkWhereItServesItsQueue) {
+  CallbackThread thread;
+  std::promise<std::thread::id> third_call;
+  int calls = 0;
+  const RepeatedWork work = thread.repeat(0.01, [&] {
+    if (++calls == 3) {
+      third_call.set_value(std::this_thread::get_id());
+    }
+  });
+  EXPECT_EQ(third_call.get_future().get(), threadThatServes(thread));
+}
+
+TEST(CallbackThread, ServesItsQueueBetweenRepetitionsThatAreSeldom) {
+  CallbackThread thread;
+  std::atomic<int> calls{0};
+  const RepeatedWork work = thread.repeat(3600.0, [&calls] { ++calls; });
+  EXPECT_NE(threadThatServes(thread), std::this_thread::get_id());
+  EXPECT_EQ(calls, 0);
+}
+
+TEST(CallbackThread, RepetitionEndsWithItsHandleThatWaitsForTheRunningCall) {
+  CallbackThread thread;
+  std::promise<void> begun;
+  std::atomic<int> calls{0};
+  std::atomic<bool> is_running{false};
+  {
+    const RepeatedWork work = thread.repeat(0.001, [&] {
+      is_running = true;
+      if (++calls == 1) {
+        begun.set_value();
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+      is_running = false;
+    });
+    begun.get_future().get();
+  }
+  EXPECT_FALSE(is_running);
+  const int calls_then = calls;
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(calls, calls_then);
 }
 
 }  // namespace

@@ -14,8 +14,6 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
-
 InsStep stepTo(Nanoseconds end) {
   InsStep step;
   step.state.stamp = end;

@@ -14,7 +14,6 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
 constexpr double kWheelSpeedAtRest_mps = 0.001;
 
 TEST(StopMessages, CommandsGoThroughUnchanged) {

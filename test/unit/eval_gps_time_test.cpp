@@ -7,8 +7,6 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
-
 TEST(GpsTime, countsCalendarDays) {
   EXPECT_EQ(calendarNanoseconds({1970, 1, 1, 0, 0, 0}), 0);
   EXPECT_EQ(calendarNanoseconds({1980, 1, 6, 0, 0, 0}), 315'964'800 * kSecond);

@@ -11,8 +11,6 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
-
 const char* const kDegreesHeader =
     "% program   : RTKPOST ver.2.4.2\n"
     "% obs start : 2020/10/15 15:00:00.0 GPST (week2127 399600.0s)\n"

@@ -8,8 +8,6 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
-
 using Names = std::vector<std::string>;
 using Values = std::vector<double>;
 

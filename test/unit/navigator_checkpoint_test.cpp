@@ -12,8 +12,6 @@
 namespace slipnav::test {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
-
 Checkpoint someCheckpoint() {
   Checkpoint checkpoint;
   InitialState& state = checkpoint.state;

@@ -7,8 +7,6 @@
 namespace slipnav::test {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
-
 FilterSetup setup() { return Config().navigation().filter; }
 
 TEST(HealthMonitor, NamesWhatIsWrongWithTheImu) {

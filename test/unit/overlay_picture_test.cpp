@@ -7,7 +7,6 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
 const Geodetic kOrigin{degToRad(39.65), degToRad(-79.9), 300.0};
 
 LocalFrame frame() { return LocalFrame(Planet::byName("earth"), kOrigin); }

@@ -10,8 +10,6 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kSecond = 1'000'000'000;
-
 TrackPoint pointAt(double east_m, Nanoseconds stamp = 0) {
   TrackPoint point;
   point.stamp = stamp;

@@ -33,7 +33,7 @@ enum class ImuVerdict {
 };
 
 /// Stamps of one source that go back by this much mean that it has started anew.
-inline constexpr Nanoseconds kRestartBackstep = 1'000'000'000;
+inline constexpr Nanoseconds kRestartBackstep = kSecond;
 
 constexpr bool isAccepted(ImuVerdict verdict) {
   return verdict == ImuVerdict::kAccepted || verdict == ImuVerdict::kAfterGap;

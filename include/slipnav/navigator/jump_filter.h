@@ -17,7 +17,7 @@ template <class Sample>
 class JumpFilter {
  public:
   /// Stamps of one source that differ by this much are a jump.
-  static constexpr Nanoseconds kJump = 1'000'000'000;
+  static constexpr Nanoseconds kJump = kSecond;
 
   /// Gives `sink` what may be used now: nothing, the sample, or the held one and the sample.
   template <class Sink>

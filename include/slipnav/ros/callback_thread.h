@@ -1,20 +1,45 @@
 #pragma once
-/// A thread that serves the callbacks of one or several nodelets.
+/// A thread that serves the callbacks of one or several nodelets, and does what they have to do regularly.
 ///
 /// The threads of nodelet's manager would be woken twice for each callback, once to hand it out and once to run it. At
-/// some hundred callbacks a second that costs more than all the computing.
+/// some hundred callbacks a second that costs more than all the computing. So would the timers of roscpp, which run on
+/// a thread of their own that only hands out.
 
 #include <ros/callback_queue.h>
 
+#include <chrono>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace slipnav {
 
 /// That of the nodelets between which every IMU sample goes back and forth. Those that compute for long, or that the
 /// operator's commands pass through, have their own.
 inline constexpr const char* kNavigationThread = "navigation";
+
+/// Work that a CallbackThread repeats, until this is destroyed or assigned to: that waits for a call that runs, and so
+/// must not be done by the work itself.
+class RepeatedWork {
+ public:
+  RepeatedWork() = default;
+  ~RepeatedWork() { end(); }
+  RepeatedWork(const RepeatedWork&) = delete;
+  RepeatedWork& operator=(const RepeatedWork&) = delete;
+  RepeatedWork(RepeatedWork&&) = default;
+  RepeatedWork& operator=(RepeatedWork&& other) noexcept;
+
+ private:
+  friend class CallbackThread;
+  struct Task;
+  explicit RepeatedWork(std::shared_ptr<Task> task) : task_(std::move(task)) {}
+  void end();
+
+  std::shared_ptr<Task> task_;
+};
 
 /// Serves its queue from construction to destruction.
 class CallbackThread {
@@ -29,9 +54,19 @@ class CallbackThread {
 
   ros::CallbackQueue& queue() { return queue_; }
 
+  /// Calls `work`, which must not throw, every `interval_s` [s] of real time; the first call may be up to a second
+  /// late.
+  RepeatedWork repeat(double interval_s, std::function<void()> work);
+
  private:
+  void run();
+  double secondsUntilWork();
+  void doWork();
+
   ros::CallbackQueue queue_;
-  std::thread thread_;
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<RepeatedWork::Task>> tasks_;
+  std::thread thread_;  ///< last: it uses the others
 };
 
 }  // namespace slipnav

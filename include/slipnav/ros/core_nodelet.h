@@ -134,8 +134,8 @@ class CoreNodelet : public nodelet::Nodelet {
   std::unique_ptr<TuningServer> tuning_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
-  ros::WallTimer tick_timer_;
-  ros::WallTimer diagnostics_timer_;
+  RepeatedWork ticks_;
+  RepeatedWork diagnostics_;
 };
 
 }  // namespace slipnav
