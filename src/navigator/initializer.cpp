@@ -16,6 +16,7 @@ constexpr double kLevelStd_rad = 2.0 * kPi / 180.0;
 constexpr double kDriveHeadingStd_rad = 5.0 * kPi / 180.0;
 constexpr double kRestVelocityStd_mps = 0.05;
 constexpr double kFixStdFactor = 3.0;
+constexpr double kFixesSilent_s = 3.0;
 // An attitude or position that is called the truth still ends up in a matrix that has to be inverted.
 constexpr double kTruthAttitudeStd_rad = 1e-5;
 constexpr double kTruthVelocityStd_mps = 1e-3;
@@ -87,6 +88,11 @@ std::optional<InitialState> Initializer::result() const {
   return params_.source == "truth" && truth_has_attitude_ ? fromTruth() : fromWindow();
 }
 
+bool Initializer::missesFixes() const {
+  return params_.source == "gnss" && !recording_.fixes().empty() && !recording_.imu().empty() &&
+         toSeconds(recording_.imu().back().stamp - recording_.fixes().back().stamp) > kFixesSilent_s;
+}
+
 std::string Initializer::progress() const {
   if (params_.source != "gnss") {
     return recording_.imu().empty() ? "waiting for imu/data" : "levelling";
@@ -96,6 +102,9 @@ std::string Initializer::progress() const {
   }
   if (recording_.fixes().empty()) {
     return "waiting for gps/fix";
+  }
+  if (missesFixes()) {
+    return "gps/fix silent";
   }
   return recording_.rest().over ? "straight drive under gps/fix" : "at rest: ready for the straight drive";
 }

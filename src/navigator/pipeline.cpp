@@ -36,6 +36,9 @@ void Pipeline::push(const ImuSample& sample) {
   counts_.gaps += verdict == ImuVerdict::kAfterGap ? 1 : 0;
   if (!initial_) {
     initializer_.push(sample);
+    if (initializer_.missesFixes()) {
+      health_.note("gps/fix silent", sample.stamp);
+    }
     tryToStart();
   }
 }

@@ -179,7 +179,6 @@ std::vector<Fault> timeFaults() {
                                 }},
                                shifting("clock jumps 3 s ahead", 3.0, false),
                                shifting("clock jumps 30 s back", -30.0, false)};
-  faults.back().starts_anew = true;
   return faults;
 }
 

@@ -43,7 +43,7 @@ Start initialise(const Config& config, const Interference& interference) {
       return;
     }
     truths.push_back(toNavState(truth, planet, config.imu.mount.position_b()));
-    if (m.gps && interference.with_fixes) {
+    if (m.gps && (t_s < interference.no_fixes_from_s || t_s > interference.no_fixes_until_s)) {
       initializer.push(toPositionFix(*m.gps));
     }
     if (m.gps && interference.velocity_std_mps > 0.0) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Simulated starts: rest and a straight drive under satellite positions, through the initialisation alone.
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ struct Start {
 /// What a test changes about the samples on their way.
 struct Interference {
   double ignore_before_s = 0.0;
-  bool with_fixes = true;
+  double no_fixes_from_s = std::numeric_limits<double>::infinity();
+  double no_fixes_until_s = std::numeric_limits<double>::infinity();
   double velocity_std_mps = 0.0;  ///< of satellite velocities at the rate of the fixes; 0: none
 };
 

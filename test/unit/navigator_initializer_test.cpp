@@ -49,10 +49,23 @@ TEST(Initializer, SaysWhatItIsWaitingFor) {
                                              "straight drive under gps/fix"};
   EXPECT_EQ(start.said, expected);
   Interference no_fixes;
-  no_fixes.with_fixes = false;
+  no_fixes.no_fixes_from_s = 0.0;
   const Start blind = initialise(startConfig(1), no_fixes);
   EXPECT_FALSE(blind.initial);
   EXPECT_EQ(blind.progress, "waiting for gps/fix");
+}
+
+TEST(Initializer, SaysThatFixesHaveStopped) {
+  Interference outage;
+  outage.no_fixes_from_s = 14.0;
+  outage.no_fixes_until_s = 19.0;
+  const Start start = initialise(startConfig(1), outage);
+  const std::vector<std::string> expected = {"waiting for a standstill of 5 s", "at rest: ready for the straight drive",
+                                             "straight drive under gps/fix", "gps/fix silent",
+                                             "straight drive under gps/fix"};
+  EXPECT_EQ(start.said, expected);
+  ASSERT_TRUE(start.initial);
+  EXPECT_LT(sigmas(start, kAttitude + 2), 3.5);
 }
 
 /// Positions that are a metre off say little about the course over ten; velocities say it within a degree.

@@ -62,6 +62,9 @@ class Initializer {
   /// Takes over gates, noise of measurements and limits of standstill; the rest of the setup has to be the same.
   void retune(const FilterSetup& setup);
 
+  /// Whether satellite positions are needed, and have stopped coming.
+  bool missesFixes() const;
+
   /// What it is waiting for, for people.
   std::string progress() const;
 

@@ -40,7 +40,6 @@ struct Fault {
   std::string name;
   std::function<void(Recording&, const FaultTimes&)> inject;
   bool at_initialisation = false;
-  bool starts_anew = false;  ///< the estimate has to begin again, and may find no start any more
 };
 
 /// All of them. @param config names topics and ranges
