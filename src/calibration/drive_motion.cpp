@@ -50,6 +50,7 @@ void describeAccuracy(const SmoothedEpoch& epoch, MotionSample& sample) {
   sample.tilt_variance_b = (C_b_to_n.transpose() * epoch.P.block<3, 3>(kAttitude, kAttitude) * C_b_to_n).diagonal();
   sample.position_covariance_n = epoch.P.block<3, 3>(kPosition, kPosition);
   sample.forward_n = C_b_to_n.col(0);
+  sample.cross_slope = C_b_to_n(2, 1);
 }
 
 }  // namespace

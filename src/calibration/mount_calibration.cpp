@@ -1,5 +1,6 @@
 #include "slipnav/calibration/mount_calibration.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "slipnav/calibration/batch_regression.h"
@@ -11,6 +12,39 @@ namespace {
 constexpr double kWorstStd_rad = 0.02;
 /// Less turning than this does not tell the centre of turn from the mounting.
 constexpr double kLeastTurnForCentre_rad = 1.5;
+
+/// Ground has its slope over twice this distance; what is shorter is stones under single wheels.
+constexpr double kStones_m = 1.0;
+/// Standard deviation of that slope across the drive, as a sine, below which it does not show how a rover slips down
+/// it.
+constexpr double kLeastCrossSlope = 0.01;
+/// Side slip forgets itself after several metres: stretches that count as independent are longer by this factor, ...
+constexpr double kSideSlipStretch = 3.0;
+/// ... unless the drive had fewer of them.
+constexpr double kLeastStretches = 10.0;
+
+/// Cross slope of the ground at each sample.
+Eigen::VectorXd crossSlopes(const std::vector<MotionSample>& samples) {
+  Eigen::VectorXd slopes(static_cast<Eigen::Index>(samples.size()));
+  auto first = samples.begin();
+  auto last = samples.begin();
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < slopes.size(); ++i) {
+    const double here_m = samples[static_cast<std::size_t>(i)].travel_m;
+    for (; last != samples.end() && last->travel_m <= here_m + kStones_m; ++last) {
+      sum += last->cross_slope;
+    }
+    for (; first->travel_m < here_m - kStones_m; ++first) {
+      sum -= first->cross_slope;
+    }
+    slopes(i) = sum / static_cast<double>(last - first);
+  }
+  return slopes;
+}
+
+double standardDeviation(const Eigen::VectorXd& values) {
+  return std::sqrt((values.array() - values.mean()).square().mean());
+}
 
 /// Mean variance of the smoothed attitude about one axis, weighted like the regression.
 double meanVariance(const std::vector<MotionSample>& samples, int axis) {
@@ -33,21 +67,28 @@ std::optional<Calibrated> angleOf(const RegressionResult& fit, double attitude_v
   return Calibrated{std::atan(fit.estimate(0)), std};
 }
 
-/// v_y = −tan ψ v_x − x_c ω_z: course against nose, and the point that does not move sideways in turns.
+/// v_y = −tan ψ v_x + κ v_x sin φ − x_c ω_z: course against nose, side slip down a cross slope of φ, and the point that
+/// does not move sideways in turns.
 void calibrateYaw(double batch_m, const std::vector<MotionSample>& samples, CalibrationResult& result) {
+  const Eigen::VectorXd slopes = crossSlopes(samples);
+  const bool slips_down = standardDeviation(slopes) >= kLeastCrossSlope;
   const bool turns = result.turned_rad >= kLeastTurnForCentre_rad;
-  RegressionProblem problem(turns ? 2 : 1);
-  for (const MotionSample& sample : samples) {
-    const Eigen::Vector2d row(-sample.v_eb_b.x(), -sample.omega_eb_b.z());
-    problem.add(row.head(problem.parameters()), sample.v_eb_b.y(), static_cast<std::size_t>(sample.travel_m / batch_m));
+  const int centre = slips_down ? 2 : 1;
+  const double stretch_m = std::clamp(samples.back().travel_m / kLeastStretches, batch_m, kSideSlipStretch * batch_m);
+  RegressionProblem problem(centre + (turns ? 1 : 0));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Vector3& v_eb_b = samples[i].v_eb_b;
+    Eigen::Vector3d row(-v_eb_b.x(), slopes(static_cast<Eigen::Index>(i)) * v_eb_b.x(), 0.0);
+    row(centre) = -samples[i].omega_eb_b.z();
+    problem.add(row.head(problem.parameters()), v_eb_b.y(), static_cast<std::size_t>(samples[i].travel_m / stretch_m));
   }
   const RegressionResult fit = regress(problem);
   result.mount_yaw_rad = angleOf(fit, meanVariance(samples, 2));
   if (!result.mount_yaw_rad) {
     result.not_observable.push_back("yaw of the IMU: its heading is too uncertain; drive longer, with turns and stops");
   }
-  if (turns && fit.effective_batches(1) >= kLeastBatches) {
-    result.turn_centre_m = Calibrated{fit.estimate(1), std::sqrt(fit.covariance(1, 1))};
+  if (turns && fit.effective_batches(centre) >= kLeastBatches) {
+    result.turn_centre_m = Calibrated{fit.estimate(centre), std::sqrt(fit.covariance(centre, centre))};
   }
 }
 

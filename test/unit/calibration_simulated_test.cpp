@@ -61,6 +61,17 @@ TEST(CalibrationTest, leverArmsOfImuAndTruthCount) {
   EXPECT_LT(std::abs(result.turn_centre_m->value), 0.02);
 }
 
+/// On soft ground a rover drives crabwise down a slope, and to one side for metres; both look like a turned IMU.
+TEST(CalibrationTest, theYawAllowsForSideSlip) {
+  for (const int seed : {7, 11}) {
+    Config config = calibrationConfig(seed, 300.0);
+    config.simulator.terrain = "rough";
+    const CalibrationResult result = calibrate(config, simulateCalibrationDrive(config).drive);
+    EXPECT_LT(sigmas(result.mount_yaw_rad, degToRad(config.simulator.imu.misalignment_yaw_deg)), 3.0) << seed;
+    EXPECT_LT(radToDeg(result.mount_yaw_rad->std), 0.4);
+  }
+}
+
 TEST(CalibrationTest, truthThatIsNoisierThanItSaysIsFoundOut) {
   Config config = calibrationConfig(4, 150.0);
   config.simulator.truth.horizontal_noise_m = 0.03;

@@ -17,6 +17,7 @@ struct MotionSample {
   Vector3 tilt_variance_b = Vector3::Zero();  ///< of the smoothed attitude about the same axes [rad²]
   Matrix3 position_covariance_n = Matrix3::Zero();  ///< of the smoothed position [m²]
   Vector3 forward_n = Vector3::Zero();              ///< where the rover points
+  double cross_slope = 0.0;                         ///< sine of the angle by which its right side hangs down
   WheelMotion wheels;
 };
 
