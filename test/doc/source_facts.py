@@ -109,6 +109,10 @@ def commands():
     return {name: path for name, path in paths.items() if os.path.exists(os.path.join(ROOT, path))}
 
 
+# What a script of this name only starts.
+PYTHON_PROGRAMS = {"tables": "scripts/paper_tables.py", "foreign": "scripts/foreign_drives.py"}
+
+
 def options_of(command):
     """Names of its options, without dashes."""
     path = commands()[command]
@@ -117,8 +121,8 @@ def options_of(command):
         declared = re.compile(r'\.(?:option|flag|choice|repeated)\("([\w-]+)"')
         shared = read("src/config/config_options.cpp") if "declareConfigOptions" in text else ""
         return set(declared.findall(text + shared)) | {"help"}
-    if command == "tables":
-        return set(re.findall(r'add_argument\(\s*"--([\w-]+)"', read("scripts/paper_tables.py"))) | {"help"}
+    if command in PYTHON_PROGRAMS:
+        return set(re.findall(r'add_argument\(\s*"--([\w-]+)"', read(PYTHON_PROGRAMS[command]))) | {"help"}
     return set(re.findall(r"--([a-z][\w-]*)", text))
 
 

@@ -1,0 +1,136 @@
+#!/usr/bin/python3
+"""Evaluates drives that nobody here made, each with the data sheet of its sensor alone, beside simpler methods.
+
+Prints a table, and what is broken of the limits below it; ends with status 1 when one is. Drives whose file is not
+there are left out by name.
+"""
+
+import argparse
+import concurrent.futures
+import os
+import shutil
+import statistics
+import sys
+
+# Beside this file, also where a build folder runs it through a stand-in.
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+
+from slipnav_zoo import catalog  # noqa: E402
+from slipnav_zoo.evaluation import Failure, evaluate, ratio  # noqa: E402
+from slipnav_zoo.table import Limits, markdown, number  # noqa: E402
+
+HEADS = ["drive", "m", "ENU %", "final %", "NEES", "3σ %", "stops", "used", "wheels+gyro %", "textbook %", "ratio"]
+
+LARGEST_RATIO = 1.2  # to the textbook filter, or to wheels and gyro
+LARGEST_MEDIAN_RATIO = 1.0
+SPARE_PCT = 0.3  # of the distance, over wheels and gyro on real drives
+LARGEST_NEES = 4.0
+MEDIAN_NEES = (0.2, 2.0)
+LEAST_COVERAGE_PCT = 95.0
+
+
+class Parser(argparse.ArgumentParser):
+    def error(self, message):
+        """One line, without the usage."""
+        self.exit(2, f"foreign: {message}\n")
+
+
+def parse_arguments():
+    here = os.path.dirname(os.path.abspath(__file__))
+    parser = Parser(prog="foreign", description=__doc__.splitlines()[0])
+    parser.add_argument("--data", default=os.path.join(here, "..", "..", "shared", "data"), metavar="DIR",
+                        help="where the recordings and their configurations are (default %(default)s)")
+    parser.add_argument("--config-dir", default=os.path.join(here, "..", "config"), metavar="DIR",
+                        help="where configurations are that lie not beside the recordings (default %(default)s)")
+    parser.add_argument("--only", metavar="TEXT", default="", help="drives whose name has this in it")
+    parser.add_argument("--set", action="append", default=[], metavar="BLOCK.KEY=VALUE",
+                        help="one setting, for every drive; to try something out")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="drives at the same time")
+    parser.add_argument("--out", metavar="FILE.md", help="the table goes here too")
+    parser.add_argument("--evaluate", default=shutil.which("evaluate"), metavar="FILE", help="the executable")
+    arguments = parser.parse_args()
+    if not arguments.evaluate or not os.access(arguments.evaluate, os.X_OK):
+        parser.error(f"no executable '{arguments.evaluate or 'evaluate'}', name it by --evaluate")
+    if not os.path.isdir(arguments.data):
+        parser.error(f"no folder '{arguments.data}', name it by --data")
+    return arguments
+
+
+def find(name, *folders):
+    for folder in folders:
+        path = os.path.join(folder, name)
+        if os.path.isfile(path):
+            return path
+    return None
+
+
+def evaluate_drive(drive, arguments):
+    bag = find(drive.bag + ".bag", arguments.data)
+    configurations = [find(name, arguments.data, arguments.config_dir) for name in drive.configurations]
+    if bag is None or None in configurations:
+        return None
+    return evaluate(arguments.evaluate, bag, configurations, arguments.set)
+
+
+def row(drive, outcome):
+    if outcome is None or isinstance(outcome, Failure):
+        return [drive.bag, "not there" if outcome is None else "failed"] + ["-"] * (len(HEADS) - 2)
+    metrics = outcome.metrics
+    compared = (ratio(metrics["enu_error_pct"], drive.textbook_pct) if drive.simulated
+                else ratio(outcome.final_pct, drive.wheels_and_gyro_pct))
+    return [drive.bag, number(metrics["distance_m"], 0), number(metrics["enu_error_pct"], 3),
+            number(outcome.final_pct, 3), number(metrics["position_nees_mean"]),
+            number(metrics["coverage_3sigma_pct"], 1), str(outcome.stops_seen), str(outcome.stops_used),
+            number(drive.wheels_and_gyro_pct), number(drive.textbook_pct), number(compared)]
+
+
+def check(drive, outcome, limits):
+    if isinstance(outcome, Failure):
+        limits.fail(drive.bag, str(outcome))
+        return
+    metrics = outcome.metrics
+    if drive.simulated:
+        limits.at_most(drive.bag, "ENU error %", metrics["enu_error_pct"], LARGEST_RATIO * drive.textbook_pct)
+        limits.at_most(drive.bag, "NEES", metrics["position_nees_mean"], LARGEST_NEES)
+    elif drive.wheels_and_gyro_pct is not None:
+        limits.at_most(drive.bag, "final error %", outcome.final_pct,
+                       LARGEST_RATIO * drive.wheels_and_gyro_pct + SPARE_PCT)
+    else:
+        limits.at_most(drive.bag, "final error m", metrics["horizontal_final_m"], drive.largest_final_m)
+        return  # truth of metres, with errors that last, says nothing about 3σ
+    limits.at_least(drive.bag, "coverage of 3σ %", metrics["coverage_3sigma_pct"], LEAST_COVERAGE_PCT)
+    limits.at_least(drive.bag, "used stops", outcome.stops_used, outcome.stops_seen)
+
+
+def check_medians(outcomes, limits):
+    ratios, nees = [], []
+    for drive, outcome in outcomes.items():
+        if drive.simulated and outcome is not None and not isinstance(outcome, Failure):
+            ratios.append(ratio(outcome.metrics["enu_error_pct"], drive.textbook_pct))
+            nees.append(outcome.metrics["position_nees_mean"])
+    if ratios and None not in ratios + nees:
+        limits.at_most("median", "ratio to the textbook", statistics.median(ratios), LARGEST_MEDIAN_RATIO)
+        limits.at_least("median", "NEES", statistics.median(nees), MEDIAN_NEES[0])
+        limits.at_most("median", "NEES", statistics.median(nees), MEDIAN_NEES[1])
+
+
+def main():
+    arguments = parse_arguments()
+    drives = [drive for drive in catalog.ALL if arguments.only in drive.bag]
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
+        outcomes = dict(zip(drives, pool.map(lambda drive: evaluate_drive(drive, arguments), drives)))
+    limits = Limits()
+    for drive, outcome in outcomes.items():
+        if outcome is not None:
+            check(drive, outcome, limits)
+    check_medians(outcomes, limits)
+    table = markdown(HEADS, [row(drive, outcome) for drive, outcome in outcomes.items()])
+    print(table + "\n\n" + limits.text())
+    if arguments.out:
+        with open(arguments.out, "w", encoding="utf-8") as file:
+            file.write(table + "\n")
+    return 1 if limits.broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
