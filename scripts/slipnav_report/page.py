@@ -60,9 +60,25 @@ def table_row(metrics):
     return f"<div class=wide><table><tr>{heads}</tr><tr>{cells}</tr></table></div>"
 
 
+def findings(title, alarms):
+    """A table of problems or alarms; nothing for none."""
+    if not alarms:
+        return ""
+    rows = "".join(f"<tr><td style='text-align:left'>{html.escape(alarm['what'])}</td><td>{alarm['count']}</td>"
+                   f"<td>{alarm['first_s']:.3f}</td><td>{alarm['last_s']:.3f}</td></tr>" for alarm in alarms)
+    heads = f"<tr><th style='text-align:left'>{html.escape(title)}</th><th>times</th><th>first [s]</th><th>last [s]</th></tr>"
+    return f"<div class=wide><table>{heads}{rows}</table></div>"
+
+
+def verdict(metrics):
+    stops = f"stops: {metrics.get('stops_seen', 0)} seen, {metrics.get('stops_used', 0)} used"
+    return (f"<p><b>{html.escape(metrics.get('verdict', ''))}</b> ({stops})</p>"
+            f"{findings('Problem', metrics.get('problems', []))}{findings('Alarm', metrics.get('alarms', []))}")
+
+
 def all_metrics(metrics):
     rows = "".join(f"<tr><td style='text-align:left'>{html.escape(key)}</td><td>{'-' if value is None else value:}</td>"
-                   "</tr>" for key, value in metrics.items())
+                   "</tr>" for key, value in metrics.items() if not isinstance(value, list))
     return f"<details><summary>All figures of metrics.json</summary><table>{rows}</table></details>"
 
 
@@ -83,7 +99,8 @@ def write_report(run, progress):
         blocks.append(figure_block(name, title, png))
     name = html.escape(os.path.basename(os.path.abspath(run.directory)))
     page = (f"<!DOCTYPE html><html lang=en><head><meta charset=utf-8><title>slipnav: {name}</title>"
-            f"<style>{STYLE}</style></head><body><h1>Run {name}</h1>{table_row(run.metrics)}{''.join(blocks)}"
+            f"<style>{STYLE}</style></head><body><h1>Run {name}</h1>{table_row(run.metrics)}{verdict(run.metrics)}"
+            f"{''.join(blocks)}"
             f"{all_metrics(run.metrics)}</body></html>\n")
     path = os.path.join(run.directory, "report.html")
     with open(path, "w", encoding="utf-8") as file:

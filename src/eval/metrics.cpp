@@ -8,6 +8,7 @@
 
 #include "bracket.h"
 #include "slipnav/eval/statistics.h"
+#include "slipnav/eval/verdict.h"
 
 namespace slipnav {
 namespace {
@@ -105,6 +106,7 @@ void fillErrors(const std::vector<ErrorEpoch>& epochs, Metrics& metrics) {
   if (metrics.distance_m.value_or(0.0) > 0.0) {
     metrics.enu_error_pct = enuErrorPct(rms_enu_m, *metrics.distance_m);
     metrics.median_error_pct = 100.0 * *metrics.horizontal_median_m / *metrics.distance_m;
+    metrics.final_pct = 100.0 * *metrics.horizontal_final_m / *metrics.distance_m;
   }
 }
 
@@ -169,6 +171,9 @@ Metrics computeMetrics(const MetricsInput& input, const MetricsOptions& options)
   }
   metrics.no_zupt_error_pct = input.no_zupt_error_pct;
   fillCounters(input.counters, metrics);
+  metrics.stops_seen = input.stops.seen;
+  metrics.stops_used = input.stops.used;
+  metrics.verdict = verdictOf(metrics, input.uses_stops);
   return metrics;
 }
 

@@ -20,13 +20,18 @@ Config withoutZeroUpdates(Config config) {
   return config;
 }
 
+Geodetic startingPlace(const InitializationParams& start) {
+  return {degToRad(start.latitude_deg), degToRad(start.longitude_deg), start.height_m};
+}
+
 }  // namespace
 
 OfflineRun::OfflineRun(const Config& config, bool with_baselines)
     : config_(config),
       planet_(Planet::byName(config.planet)),
       pipeline_(planet_, config.navigation(),
-                [this](const Estimate& estimate, const ErrorCovariance& P) { record(estimate, P); }) {
+                [this](const Estimate& estimate, const ErrorCovariance& P) { record(estimate, P); }),
+      stops_(config.stationary, planet_.gravity_n(startingPlace(config.initialization)).norm()) {
   if (with_baselines) {
     without_zupt_ = std::make_unique<OfflineRun>(withoutZeroUpdates(config), false);
     forecasts_.emplace(config);
@@ -34,6 +39,7 @@ OfflineRun::OfflineRun(const Config& config, bool with_baselines)
 }
 
 void OfflineRun::push(const ImuSample& sample) {
+  stops_.add(sample);
   pipeline_.push(sample);
   if (wheel_only_) {
     wheel_only_->addImu(sample);
@@ -46,6 +52,7 @@ void OfflineRun::push(const ImuSample& sample) {
 }
 
 void OfflineRun::push(const WheelMotion& wheels) {
+  stops_.add(wheels);
   pipeline_.push(wheels);
   const SpeedSample speed{wheels.stamp, wheels.motion.forward_mps};
   if (wheel_only_) {
@@ -93,6 +100,11 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
   if (estimate.has_wheels) {
     slip_ = slipOf(estimate);
   }
+  const std::uint64_t zero_updates = pipeline_.filter().status(kZeroVelocity).accepted;
+  if (zero_updates > zero_updates_) {
+    stops_.noteZeroUpdate(estimate.nav.stamp);
+  }
+  zero_updates_ = zero_updates;
   filter_rows_.add(estimate, P, pipeline_.filter());
   const Output out = output_->make(estimate, P);
   if (on_output_) {
@@ -141,8 +153,8 @@ TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment) const {
 }
 
 RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
-  if (estimates_.empty()) {
-    throw std::runtime_error("the initialisation did not end: " + pipeline_.initializer().progress());
+  if (!hasEstimates()) {
+    throw std::runtime_error(failure());
   }
   RunReport report;
   report.estimates = estimates_;
@@ -167,7 +179,10 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
     input.counters.forecast_ms = forecasts_->times_ms();
     input.counters.forecasts = static_cast<std::int64_t>(forecasts_->times_ms().size());
   }
+  input.stops = stops_.counts(estimates_.front().stamp, estimates_.back().stamp);
+  input.uses_stops = config_.filter.uses("zupt");
   report.metrics = computeMetrics(input);
+  report.metrics.alarms = pipeline_.health().alarms();
   report.diagnostics.filter = filter_rows_.rows();
   report.diagnostics.wheel_only = input.wheel_only;
   return report;

@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "fields.h"
-#include "slipnav/config/text.h"
+#include "json_object.h"
 #include "slipnav/eval/atomic_file.h"
 #include "slipnav/eval/tum.h"
 
@@ -19,35 +19,6 @@ namespace slipnav {
 namespace {
 
 constexpr int kCsvDigits = 12;
-
-/// Writes the members of one JSON object.
-class JsonObject {
- public:
-  JsonObject() { out_.imbue(std::locale::classic()); }
-
-  void addCount(const char* key, std::int64_t value) { begin(key) << value; }
-
-  void addNumber(const char* key, std::optional<double> value) {
-    std::ostream& out = begin(key);
-    if (value && std::isfinite(*value)) {
-      out << formatNumber(*value);
-    } else {
-      out << "null";
-    }
-  }
-
-  std::string text() const { return "{\n" + out_.str() + "\n}\n"; }
-
- private:
-  std::ostream& begin(const char* key) {
-    out_ << (is_first_ ? "" : ",\n") << "  \"" << key << "\": ";
-    is_first_ = false;
-    return out_;
-  }
-
-  std::ostringstream out_;
-  bool is_first_ = true;
-};
 
 /// The number, or NaN, which streams as `nan`, where there is none.
 double orNan(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
@@ -125,6 +96,12 @@ std::string metricsJson(const Metrics& metrics) {
   json.addNumber("forecast_ms_p99", metrics.forecast_ms_p99);
   json.addNumber("cpu_s", metrics.cpu_s);
   json.addNumber("realtime_factor", metrics.realtime_factor);
+  json.addNumber("final_pct", metrics.final_pct);
+  json.addCount("stops_seen", metrics.stops_seen);
+  json.addCount("stops_used", metrics.stops_used);
+  json.addText("verdict", metrics.verdict);
+  json.addAlarms("problems", metrics.problems);
+  json.addAlarms("alarms", metrics.alarms);
   return json.text();
 }
 

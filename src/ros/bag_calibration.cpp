@@ -47,7 +47,7 @@ CalibrationDrive readDrive(const BagReader& reader, bool with_truth) {
       drive.truth.push_back(toFix(sample, frame));
     }
   };
-  sink.problem = [](const std::string&) {};
+  sink.problem = [](const std::string&, Nanoseconds) {};
   reader.read(sink);
   return drive;
 }

@@ -25,6 +25,11 @@ class Stopwatch {
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
 };
 
+void noteFindings(BagEvaluation& evaluation) {
+  evaluation.report.metrics.problems = evaluation.problems;
+  evaluation.report.metrics.alarms = evaluation.alarms;
+}
+
 /// Feeds a recording to a run in the order of the stamps.
 void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluation& evaluation) {
   HealthMonitor health(reader.config().navigation().filter);  // of what does not reach the pipeline
@@ -60,14 +65,26 @@ void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluati
       run.addTruthPose(pose);
     }
   };
-  sink.problem = [&evaluation, &health, &merger](const std::string& problem) {
-    ++evaluation.problems[problem];
-    health.note(problem, merger.newestImuStamp());
-  };
+  HealthMonitor problems(reader.config().navigation().filter);
+  sink.problem = [&problems](const std::string& problem, Nanoseconds recorded) { problems.note(problem, recorded); };
   reader.read(sink);
   merger.flush(pass);
   evaluation.alarms = run.pipeline().health().alarms();
   evaluation.alarms.insert(health.alarms().begin(), health.alarms().end());
+  evaluation.problems = problems.alarms();
+  evaluation.alarms.insert(evaluation.problems.begin(), evaluation.problems.end());
+}
+
+/// The report, or NoStart with what was wrong.
+void finish(const OfflineRun& run, const TruthAlignment& alignment, BagEvaluation& evaluation) {
+  if (!run.hasEstimates()) {
+    const std::string failure = run.failure();
+    evaluation.report.metrics.verdict = "no start: " + failure;
+    noteFindings(evaluation);
+    throw NoStart(failure, std::move(evaluation));
+  }
+  evaluation.report = run.finish(alignment);
+  noteFindings(evaluation);
 }
 
 }  // namespace
@@ -90,7 +107,8 @@ BagEvaluation evaluateBag(const std::string& path, const Config& config, const s
     }
   }
   feed(reader, !truth_from_file, run, evaluation);
-  evaluation.report = run.finish(config.truth.alignment(truth_from_file || reader.truthIsGeodetic()));
+  evaluation.begin = reader.begin();
+  finish(run, config.truth.alignment(truth_from_file || reader.truthIsGeodetic()), evaluation);
   evaluation.report.metrics.cpu_s = stopwatch.cpu();
   evaluation.report.metrics.realtime_factor = reader.duration() / stopwatch.wall();
   return evaluation;
@@ -104,6 +122,7 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   input.counters.imu_samples = report.metrics.imu_samples;
   input.counters.wheel_samples = report.metrics.wheel_samples;
   input.counters.rejected_samples = report.metrics.rejected_samples;
+  input.stops = {report.metrics.stops_seen, report.metrics.stops_used};
   RunReport result;
   result.estimates = estimates;
   result.truth = report.truth;
@@ -111,6 +130,8 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   result.diagnostics = report.diagnostics;
   result.metrics = computeMetrics(input);
   result.metrics.wheel_only_error_pct = report.metrics.wheel_only_error_pct;
+  result.metrics.problems = report.metrics.problems;
+  result.metrics.alarms = report.metrics.alarms;
   result.metrics.realtime_factor = result.metrics.duration_s / wall_s;
   return result;
 }

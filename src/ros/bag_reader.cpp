@@ -188,7 +188,7 @@ struct BagReader::Parts {
     if (const std::optional<WheelMotion> motion = wheels.take(bag.read<Message>(entry))) {
       sink.wheels(*motion);
     } else if (!wheels.problem().empty()) {
-      sink.problem(wheels.problem());
+      sink.problem(wheels.problem(), entry.time);
     }
   }
 };
@@ -213,6 +213,8 @@ const Config& BagReader::config() const { return parts_->config; }
 bool BagReader::truthIsGeodetic() const {
   return parts_->truth_topic.empty() || parts_->typeOf(parts_->truth_topic) == typeName<sensor_msgs::NavSatFix>();
 }
+
+Nanoseconds BagReader::begin() const { return parts_->begin; }
 
 double BagReader::duration() const { return toSeconds(parts_->end - parts_->begin); }
 

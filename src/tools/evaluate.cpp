@@ -3,6 +3,8 @@
 #include <iostream>
 
 #include "slipnav/config/config_options.h"
+#include "slipnav/eval/alarm_text.h"
+#include "slipnav/eval/atomic_file.h"
 #include "slipnav/eval/report.h"
 #include "slipnav/ros/bag_evaluation.h"
 
@@ -30,6 +32,29 @@ void checkArguments(const Arguments& arguments) {
   }
 }
 
+void printFindings(const slipnav::BagEvaluation& evaluation) {
+  slipnav::Alarms others = evaluation.alarms;
+  for (const auto& problem : evaluation.problems) {
+    others.erase(problem.first);
+  }
+  std::cerr << slipnav::alarmLines("evaluate: problem", evaluation.problems, evaluation.begin)
+            << slipnav::alarmLines("evaluate: alarm", others, evaluation.begin);
+}
+
+/// Also a run without a start leaves behind what was wrong.
+slipnav::BagEvaluation evaluated(const std::string& bag, const slipnav::Config& config, const Arguments& arguments) {
+  try {
+    return slipnav::evaluateBag(bag, config, arguments.text("truth"), {});
+  } catch (const slipnav::NoStart& failure) {
+    printFindings(failure.evaluation());
+    if (arguments.given("out")) {
+      slipnav::createDirectories(arguments.text("out"));
+      slipnav::writeMetricsJson(arguments.text("out") + "/metrics.json", failure.evaluation().report.metrics);
+    }
+    throw;
+  }
+}
+
 int run(int argc, char** argv) {
   const CommandLine command_line = commandLine();
   const Arguments arguments = command_line.parse(argc, argv);
@@ -40,10 +65,8 @@ int run(int argc, char** argv) {
   checkArguments(arguments);
   const std::string& bag = arguments.text("BAG");
   const slipnav::Config config = slipnav::configFromOptions(arguments);
-  const slipnav::BagEvaluation evaluation = slipnav::evaluateBag(bag, config, arguments.text("truth"), {});
-  for (const auto& [problem, count] : evaluation.problems) {
-    std::cerr << "evaluate: " << problem << " (" << count << " messages left out)\n";
-  }
+  const slipnav::BagEvaluation evaluation = evaluated(bag, config, arguments);
+  printFindings(evaluation);
   if (arguments.given("out")) {
     slipnav::writeRunReport(arguments.text("out"), evaluation.report);
   }
@@ -54,7 +77,8 @@ int run(int argc, char** argv) {
     slipnav::plotReport(arguments.text("out"));
   }
   std::cout << slipnav::tableHeader()
-            << slipnav::tableRow(slipnav::runName(bag), std::nullopt, evaluation.report.metrics);
+            << slipnav::tableRow(slipnav::runName(bag), std::nullopt, evaluation.report.metrics)
+            << slipnav::runName(bag) << ": " << evaluation.report.metrics.verdict << '\n';
   return 0;
 }
 

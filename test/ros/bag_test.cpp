@@ -39,7 +39,7 @@ Collected readAll(const BagReader& reader) {
   sink.truth_fix = [&all](const GnssFix& sample) { all.truth_fixes.push_back(sample); };
   sink.truth_pose = [&all](const TruthSample& sample) { all.truth_poses.push_back(sample); };
   sink.truth_start = [](const NavigationState&, bool) {};
-  sink.problem = [](const std::string& problem) { FAIL() << problem; };
+  sink.problem = [](const std::string& problem, Nanoseconds) { FAIL() << problem; };
   reader.read(sink);
   return all;
 }

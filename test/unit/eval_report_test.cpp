@@ -201,7 +201,13 @@ TEST(MetricsJson, holdsEveryKeyInOrder) {
             "  \"forecast_ms_p50\": null,\n"
             "  \"forecast_ms_p99\": null,\n"
             "  \"cpu_s\": null,\n"
-            "  \"realtime_factor\": null\n"
+            "  \"realtime_factor\": null,\n"
+            "  \"final_pct\": null,\n"
+            "  \"stops_seen\": 0,\n"
+            "  \"stops_used\": 0,\n"
+            "  \"verdict\": \"\",\n"
+            "  \"problems\": [],\n"
+            "  \"alarms\": []\n"
             "}\n");
 }
 
@@ -219,6 +225,7 @@ TEST(MetricsJson, givesEachKeyItsOwnFigure) {
   m.position_nees_mean = 14.5, m.coverage_3sigma_pct = 15.5, m.wheel_only_error_pct = 16.5;
   m.no_zupt_error_pct = 17.5, m.imu_samples = 18, m.wheel_samples = 19, m.rejected_samples = 20, m.forecasts = 21;
   m.forecast_ms_p50 = 22.5, m.forecast_ms_p99 = 23.5, m.cpu_s = 24.5, m.realtime_factor = 25.5;
+  m.final_pct = 26.5, m.stops_seen = 27, m.stops_used = 28;
   const std::string json = metricsJson(m);
   const std::vector<std::string> keys = {
       "distance_m",        "duration_s",         "stop_count",          "stop_rate_pct",
@@ -227,7 +234,7 @@ TEST(MetricsJson, givesEachKeyItsOwnFigure) {
       "rms_up_m",          "position_nees_mean", "coverage_3sigma_pct", "wheel_only_error_pct",
       "no_zupt_error_pct", "imu_samples",        "wheel_samples",       "rejected_samples",
       "forecasts",         "forecast_ms_p50",    "forecast_ms_p99",     "cpu_s",
-      "realtime_factor"};
+      "realtime_factor",   "final_pct",          "stops_seen",          "stops_used"};
   for (std::size_t i = 0; i < keys.size(); ++i) {
     EXPECT_EQ(std::floor(valueOf(json, keys[i])), static_cast<double>(i + 1)) << keys[i];
   }

@@ -11,7 +11,9 @@
 #include "slipnav/eval/estimate.h"
 #include "slipnav/eval/motion.h"
 #include "slipnav/eval/planar_dead_reckoning.h"
+#include "slipnav/eval/stop_ledger.h"
 #include "slipnav/eval/truth_track.h"
+#include "slipnav/navigator/health.h"
 #include "slipnav/types.h"
 
 namespace slipnav {
@@ -33,6 +35,8 @@ struct MetricsInput {
   TruthTrack truth;         ///< may be empty
   PlanarTrack wheel_only;   ///< the baseline; may be empty
   std::optional<double> no_zupt_error_pct;
+  StopCounts stops;
+  bool uses_stops = true;  ///< zero-velocity updates are part of the run
   RunCounters counters;
 };
 
@@ -75,6 +79,12 @@ struct Metrics {
   std::optional<double> forecast_ms_p99;
   std::optional<double> cpu_s;
   std::optional<double> realtime_factor;
+  std::optional<double> final_pct;  ///< 100·horizontal_final_m/D
+  std::int64_t stops_seen = 0;      ///< standstills by wheels and IMU, see StopLedger
+  std::int64_t stops_used = 0;      ///< of these, with an accepted zero-velocity update
+  std::string verdict;              ///< see verdictOf()
+  Alarms problems;                  ///< of the recording: messages that could not be used, and the like
+  Alarms alarms;                    ///< what the monitoring of sensors and filter has named
 };
 
 /// Throws std::invalid_argument when the estimate is empty or not in order of stamp.

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "slipnav/eval/forecast_recorder.h"
 #include "slipnav/eval/planar_dead_reckoning.h"
 #include "slipnav/eval/report.h"
+#include "slipnav/eval/stop_ledger.h"
 #include "slipnav/navigator/output.h"
 #include "slipnav/navigator/pipeline.h"
 
@@ -40,7 +42,11 @@ class OfflineRun {
 
   const Pipeline& pipeline() const { return pipeline_; }
 
-  /// Throws std::runtime_error when the initialisation never ended, saying what it was waiting for.
+  bool hasEstimates() const { return !estimates_.empty(); }
+  /// Why there are none, in one line: what the initialisation was waiting for.
+  std::string failure() const { return "the initialisation did not end: " + pipeline_.initializer().progress(); }
+
+  /// Throws std::runtime_error with failure() when there are no estimates.
   RunReport finish(const TruthAlignment& alignment) const;
 
  private:
@@ -58,6 +64,8 @@ class OfflineRun {
   std::optional<OutputMaker> output_;
   EstimateTrack estimates_;
   FilterRecorder filter_rows_;
+  StopLedger stops_;
+  std::uint64_t zero_updates_ = 0;             ///< accepted by the filter so far
   std::optional<ForecastRecorder> forecasts_;  ///< not for a baseline
   std::optional<double> slip_;
   std::optional<PlanarDeadReckoning> wheel_only_;

@@ -14,7 +14,8 @@
 
 namespace slipnav {
 
-/// What becomes of each kind of message. Those that cannot be used go to `problem`, one line each.
+/// What becomes of each kind of message. Those that cannot be used go to `problem`: what is wrong in one line, and when
+/// the message was recorded.
 struct BagSink {
   std::function<void(const ImuSample&)> imu;
   std::function<void(const WheelMotion&)> wheels;
@@ -24,7 +25,7 @@ struct BagSink {
   std::function<void(const NavigationState&, bool)> truth_start;
   std::function<void(const GnssFix&)> truth_fix;
   std::function<void(const TruthSample&)> truth_pose;
-  std::function<void(const std::string&)> problem;
+  std::function<void(const std::string&, Nanoseconds)> problem;
 };
 
 /// Part of a recording, as rosbag play counts it.
@@ -47,6 +48,8 @@ class BagReader {
   const Config& config() const;
   /// Whether the truth is a fix by latitude and longitude (and not a pose in a frame of its own), or there is none.
   bool truthIsGeodetic() const;
+  /// When the first message that is read was recorded.
+  Nanoseconds begin() const;
   /// Time from the first to the last message that is read [s].
   double duration() const;
 
