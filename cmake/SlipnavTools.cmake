@@ -17,6 +17,10 @@ function(slipnav_add_tool source library)
   endif()
 endfunction()
 
+# Worlds and grades of an uninstalled build.
+set_source_files_properties("${PROJECT_SOURCE_DIR}/src/tools/simulate.cpp" PROPERTIES
+  COMPILE_DEFINITIONS "SLIPNAV_CONFIG_DIR=\"${PROJECT_SOURCE_DIR}/config\"")
+
 file(GLOB tool_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/tools/*.cpp")
 foreach(source IN LISTS tool_sources)
   get_filename_component(name "${source}" NAME_WE)

@@ -8,7 +8,7 @@ void declareConfigOptions(CommandLine& command_line) {
       .repeated("set", "BLOCK.KEY=VALUE", "one setting, over those of the files");
 }
 
-Config configFromOptions(const Arguments& arguments) {
+Config configFromOptions(const Arguments& arguments, std::vector<std::string> first) {
   std::vector<Override> overrides;
   for (const std::string& argument : arguments.all("topic")) {
     overrides.push_back(topicOverride(argument));
@@ -16,7 +16,9 @@ Config configFromOptions(const Arguments& arguments) {
   for (const std::string& argument : arguments.all("set")) {
     overrides.push_back(keyOverride(argument));
   }
-  return Config::load(arguments.all("config"), overrides);
+  const std::vector<std::string>& given = arguments.all("config");
+  first.insert(first.end(), given.begin(), given.end());
+  return Config::load(first, overrides);
 }
 
 }  // namespace slipnav

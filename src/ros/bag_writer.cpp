@@ -58,6 +58,9 @@ void BagWriter::write(const sim::Measurements& measurements, const sim::TruthSta
   if (measurements.truth) {
     p.put(p.topics.truth_fix, p.sensors.fix(*measurements.truth));
   }
+  for (const sim::WheelReading& earlier : measurements.earlier_wheels) {
+    p.put(p.topics.joint_states, p.sensors.joints(earlier.sample, earlier.angle_rad));
+  }
   if (measurements.wheel) {
     p.put(p.topics.joint_states, p.sensors.joints(*measurements.wheel, measurements.wheel_angle_rad));
     p.put(p.topics.truth_odometry, p.sensors.truth(truth));

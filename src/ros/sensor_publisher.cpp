@@ -34,6 +34,9 @@ void SensorPublisher::publish(const sim::Measurements& measurements, const sim::
   if (measurements.truth) {
     send(truth_fix_, sensors_.fix(*measurements.truth));
   }
+  for (const sim::WheelReading& earlier : measurements.earlier_wheels) {
+    send(joints_, sensors_.joints(earlier.sample, earlier.angle_rad));
+  }
   if (measurements.wheel) {
     send(joints_, sensors_.joints(*measurements.wheel, measurements.wheel_angle_rad));
     send(truth_odometry_, sensors_.truth(truth));

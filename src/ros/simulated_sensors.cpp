@@ -14,8 +14,9 @@ Matrix3 frdToFlu() { return Vector3(1.0, -1.0, -1.0).asDiagonal(); }
 
 SimulatedSensors::SimulatedSensors(const Config& config)
     : frames_(config.frames), wheels_(config.wheels), mount_(config.imu.mount), planet_(Planet::byName(config.planet)) {
-  if (wheels_.size() != sim::kWheelCount) {
-    throw std::invalid_argument("wheels: the simulated rover has " + std::to_string(sim::kWheelCount) + ", not " +
+  const std::size_t count = sim::wheelsOf(config.simulator.vehicle.layout);
+  if (wheels_.size() != count) {
+    throw std::invalid_argument("wheels: the simulated rover has " + std::to_string(count) + ", not " +
                                 std::to_string(wheels_.size()));
   }
 }
@@ -36,7 +37,7 @@ sensor_msgs::Imu SimulatedSensors::imu(const ImuSample& sample) const {
   return message;
 }
 
-sensor_msgs::JointState SimulatedSensors::joints(const WheelSample& sample, const sim::PerWheel& angle_rad) const {
+sensor_msgs::JointState SimulatedSensors::joints(const WheelSample& sample, const sim::EncoderAngles& angle_rad) const {
   sensor_msgs::JointState message;
   message.header.stamp = toRosTime(sample.stamp);
   for (std::size_t i = 0; i < wheels_.size(); ++i) {

@@ -6,7 +6,12 @@ namespace slipnav::sim {
 namespace {
 
 constexpr double kLookahead_m = 1.2;
+/// At high speed it looks so long ahead.
+constexpr double kLookahead_s = 0.5;
 constexpr double kMaxYawRate_radps = 0.5;
+/// The turns of a fast rover are as wide as this sideways acceleration asks for.
+constexpr double kMaxLateral_mps2 = 2.5;
+constexpr double kTightestTurn_m = 2.5;
 /// The path stays straight beyond the initialisation drive, so that looking ahead does not bend its end.
 constexpr double kStraightReserve_m = 3.0;
 /// The planned path is longer than the drive: a rover that weaves or stops late must not run out of path.
@@ -20,8 +25,14 @@ Driver::Driver(const SimulatorParams& params)
 
 Route Driver::routeOf(const SimulatorParams& params) {
   const DriveParams& drive = params.drive;
+  const bool circle = drive.route == "circle";
+  const RouteShape shape = circle                      ? RouteShape::kCircle
+                           : drive.route == "straight" ? RouteShape::kStraight
+                                                       : RouteShape::kWinding;
+  const double widening = std::max(1.0, drive.speed_mps * drive.speed_mps / (kMaxLateral_mps2 * kTightestTurn_m));
   return {static_cast<std::uint64_t>(params.seed), drive.initial_straight_m + kStraightReserve_m,
-          kSpareRoute * (drive.initial_straight_m + drive.distance_m) + kSpareRoute_m};
+          kSpareRoute * (drive.initial_straight_m + drive.distance_m) + kSpareRoute_m, shape,
+          circle ? drive.circle_radius_m : widening};
 }
 
 Command Driver::command(const TruthState& truth) {
@@ -56,7 +67,7 @@ void Driver::advancePhase(const TruthState& truth) {
 
 double Driver::steer(const TruthState& truth) {
   const RoutePoint pose{truth.position_enu_m.x(), truth.position_enu_m.y(), truth.heading_rad};
-  const double curvature_per_m = route_.pursue(pose, kLookahead_m);
+  const double curvature_per_m = route_.pursue(pose, std::max(kLookahead_m, kLookahead_s * params_.speed_mps));
   return std::clamp(params_.speed_mps * curvature_per_m, -kMaxYawRate_radps, kMaxYawRate_radps);
 }
 

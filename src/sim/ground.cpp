@@ -133,4 +133,20 @@ GroundParams groundByName(const std::string& name) {
   throw std::invalid_argument("terrain '" + name + "' is not known (" + known + ")");
 }
 
+GroundParams changed(GroundParams ground, const GroundChangeParams& change) {
+  SlipParams& slip = ground.slip;
+  slip.offset = change.slip_offset;
+  slip.fast *= change.slip_variation;
+  slip.slow *= change.slip_variation;
+  slip.wheel_scatter *= change.slip_variation;
+  slip.patch = change.patch_slip;
+  slip.patch_length_m = change.patch_length_m;
+  slip.patch_spacing_m = change.patch_spacing_m;
+  if (change.track_factor > 0.0) {
+    slip.track_factor = change.track_factor;
+  }
+  ground.relief.tilt_deg = change.tilt_deg;
+  return ground;
+}
+
 }  // namespace slipnav::sim

@@ -24,7 +24,10 @@ void InertialTruth::add(const Kinematics& state, double dt_s) {
   const Vector3 v_last = sensorVelocity(last_);
   const Vector3 v = sensorVelocity(state);
   const Matrix3 C_mean = 0.5 * (last_.C_b_to_enu + state.C_b_to_enu);
-  acceleration_sum_b_ += C_mean.transpose() * (v - v_last + dt_s * omega_ie_enu_.cross(v_last + v));
+  const Vector3 acceleration_step_b = C_mean.transpose() * (v - v_last + dt_s * omega_ie_enu_.cross(v_last + v));
+  acceleration_sum_b_ += acceleration_step_b;
+  instant_ = {acceleration_step_b / dt_s - C_mean.transpose() * last_gravity_enu_,
+              state.omega_eb_b + state.C_b_to_enu.transpose() * omega_ie_enu_};
   rate_sum_b_ += dt_s * (0.5 * (last_.omega_eb_b + state.omega_eb_b) + C_mean.transpose() * omega_ie_enu_);
   rotation_sum_ += dt_s * C_mean;
   time_s_ += dt_s;

@@ -27,17 +27,26 @@ std::size_t steps(double length_m) { return static_cast<std::size_t>(std::ceil(l
 
 }  // namespace
 
-Route::Route(std::uint64_t seed, double straight_m, double length_m) {
+Route::Route(std::uint64_t seed, double straight_m, double length_m, RouteShape shape, double radius) {
   RandomStream stream(seed, "route");
-  double bearing_rad = stream.uniform(-kPi, kPi);
-  points_.push_back({0.0, 0.0, bearing_rad});
+  points_.push_back({0.0, 0.0, stream.uniform(-kPi, kPi)});
   while (points_.size() <= steps(straight_m)) {
     append(0.0);
   }
-  double side = stream.uniform() < 0.5 ? -1.0 : 1.0;
+  if (shape == RouteShape::kWinding) {
+    wind(stream, steps(length_m), radius);
+  }
   while (points_.size() <= steps(length_m)) {
+    append(shape == RouteShape::kCircle ? 1.0 / radius : 0.0);
+  }
+}
+
+void Route::wind(RandomStream& stream, std::size_t count, double radius_factor) {
+  double bearing_rad = points_.back().heading_rad;
+  double side = stream.uniform() < 0.5 ? -1.0 : 1.0;
+  while (points_.size() <= count) {
     bearing_rad += degToRad(kBearingWander_deg) * stream.normal();
-    appendTurn(bearing_rad + side * degToRad(kTack_deg.draw(stream)), kTurnRadius_m.draw(stream));
+    appendTurn(bearing_rad + side * degToRad(kTack_deg.draw(stream)), radius_factor * kTurnRadius_m.draw(stream));
     appendLeg(kLeg_m.draw(stream), stream.uniform(-kMaxBend_per_m, kMaxBend_per_m));
     side = -side;
   }

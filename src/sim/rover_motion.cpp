@@ -6,6 +6,9 @@
 namespace slipnav::sim {
 namespace {
 
+/// How long the ground takes to give way, and to hold again.
+constexpr double kGripChange_s = 0.5;
+
 bool isLeft(std::size_t wheel) { return wheel % 2 == 0; }
 
 PerWheel drawRadii(const VehicleParams& vehicle, std::uint64_t seed) {
@@ -30,14 +33,19 @@ double slipRatio(double ground_speed_mps, double surface_speed_mps) {
 }
 
 RoverMotion::RoverMotion(const VehicleParams& vehicle, const GroundParams& ground, double start_heading_rad,
-                         double straight_m, std::uint64_t seed)
+                         double straight_m, std::uint64_t seed, const BodyParams& body, const StuckPlace& stuck)
     : vehicle_(vehicle),
       terrain_(Terrain(ground.relief, start_heading_rad, straight_m, seed)),
       slip_model_(ground.slip, seed),
       radius_m_(drawRadii(vehicle, seed)),
       forward_(vehicle.acceleration_mps2),
-      difference_(vehicle.acceleration_mps2) {
+      difference_(vehicle.acceleration_mps2),
+      body_(body, seed),
+      stuck_(stuck) {
   value_[kHeading] = start_heading_rad;
+  if (body_.rocks()) {
+    value_.segment<kBodyAxes>(kBody) = body_.stones(0.0);
+  }
   evaluate();
 }
 
@@ -45,12 +53,32 @@ void RoverMotion::advance(double forward_mps, double yaw_rate_radps, double dt_s
   integrate(dt_s);
   forward_.advance(forward_mps, dt_s);
   difference_.advance(0.5 * yaw_rate_radps * vehicle_.assumed_track_factor * vehicle_.track_m, dt_s);
-  const bool at_rest = forward_.atRest() && difference_.atRest();
+  const bool at_rest = forward_.atRest() && difference_.atRest() && bodyHolds();
+  if (stuck_.duration_s > 0.0 && value_[kDistance] >= stuck_.distance_m) {
+    stuck_time_s_ += dt_s;
+  }
   if (at_rest && state_.standstill) {
     return;
   }
+  if (at_rest) {
+    value_.segment<kBodyAxes>(kBodyRate).setZero();
+  }
   evaluate();
   state_.standstill = at_rest;
+}
+
+bool RoverMotion::bodyHolds() {
+  return !body_.isSprung() || body_.holds(body_.stones(value_[kDistance]) - value_.segment<kBodyAxes>(kBody),
+                                          value_.segment<kBodyAxes>(kBodyRate));
+}
+
+/// Part of the wheels' surface speed that the ground takes: 1, and 0 where the rover is stuck.
+double RoverMotion::grip() const {
+  if (stuck_time_s_ <= 0.0 || stuck_time_s_ >= stuck_.duration_s) {
+    return 1.0;
+  }
+  const double edge_s = std::min(stuck_time_s_, stuck_.duration_s - stuck_time_s_);
+  return 0.5 + 0.5 * std::cos(kPi * std::min(1.0, edge_s / kGripChange_s));
 }
 
 /// Adams-Bashforth of third order by divided differences, for steps of changing length.
@@ -76,6 +104,9 @@ void RoverMotion::evaluate() {
       {value_[kTravel], direction * state_.C_b_to_enu(2, 0), -state_.C_b_to_enu(2, 1), surface.looseness});
   moveBody(surface, slippage);
   turnWheels(slippage, state_.omega_eb_b.z());
+  if (body_.rocks()) {
+    rockBody();
+  }
 }
 
 /// Down is the surface's inward normal; forward is the tangent whose horizontal projection has the heading.
@@ -89,8 +120,9 @@ void RoverMotion::setAttitude(const SurfacePoint& surface) {
 void RoverMotion::moveBody(const SurfacePoint& surface, const Slippage& slippage) {
   const double radius_left = 0.5 * (radius_m_[0] + radius_m_[2]) / vehicle_.wheel_radius_m;
   const double radius_right = 0.5 * (radius_m_[1] + radius_m_[3]) / vehicle_.wheel_radius_m;
-  const double left_mps = radius_left * (forward_.speed() + difference_.speed()) * (1.0 - slippage.left);
-  const double right_mps = radius_right * (forward_.speed() - difference_.speed()) * (1.0 - slippage.right);
+  const double held = grip();
+  const double left_mps = held * radius_left * (forward_.speed() + difference_.speed()) * (1.0 - slippage.left);
+  const double right_mps = held * radius_right * (forward_.speed() - difference_.speed()) * (1.0 - slippage.right);
   const double forward_mps = 0.5 * (left_mps + right_mps);
   const double yaw_rate_radps = (left_mps - right_mps) / (slippage.track_factor * vehicle_.track_m);
   state_.v_eb_b << forward_mps, std::abs(forward_mps) * slippage.lateral - slippage.turn_centre_m * yaw_rate_radps, 0.0;
@@ -134,6 +166,32 @@ void RoverMotion::turnWheels(const Slippage& slippage, double yaw_rate_radps) {
     rate_[index] = state_.wheel_rate_radps[i];
     state_.wheel_angle_rad[i] = value_[index];
   }
+}
+
+/// Places the body over the path: pitch, then roll, about base_link, which is moved up and to the side.
+void RoverMotion::rockBody() {
+  const BodyVector stones = body_.stones(value_[kDistance]);
+  const BodyVector stone_rate = body_.stoneSlopes(value_[kDistance]) * rate_[kDistance];
+  BodyVector place = stones;
+  BodyVector rate = stone_rate;
+  if (body_.isSprung()) {
+    place = value_.segment<kBodyAxes>(kBody);
+    rate = value_.segment<kBodyAxes>(kBodyRate);
+    rate_.segment<kBodyAxes>(kBody) = rate;
+    rate_.segment<kBodyAxes>(kBodyRate) = body_.acceleration(stones - place, stone_rate - rate);
+  }
+  const Matrix3 C_path_to_enu = state_.C_b_to_enu;
+  const Vector3 offset(0.0, place[kSway], 0.0);
+  const Vector3 offset_rate(0.0, rate[kSway], 0.0);
+  state_.position_enu_m += C_path_to_enu * offset + Vector3(0.0, 0.0, place[kHeave]);
+  state_.v_eb_enu += C_path_to_enu * (offset_rate + state_.omega_eb_b.cross(offset)) + Vector3(0.0, 0.0, rate[kHeave]);
+  const Matrix3 C_b_to_path =
+      (Eigen::AngleAxisd(place[kPitch], Vector3::UnitY()) * Eigen::AngleAxisd(place[kRoll], Vector3::UnitX()))
+          .toRotationMatrix();
+  const Vector3 relative_b(rate[kRoll], rate[kPitch] * std::cos(place[kRoll]), -rate[kPitch] * std::sin(place[kRoll]));
+  state_.C_b_to_enu = C_path_to_enu * C_b_to_path;
+  state_.omega_eb_b = C_b_to_path.transpose() * state_.omega_eb_b + relative_b;
+  state_.v_eb_b = state_.C_b_to_enu.transpose() * state_.v_eb_enu;
 }
 
 }  // namespace slipnav::sim

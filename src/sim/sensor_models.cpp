@@ -1,5 +1,6 @@
 #include "slipnav/sim/sensor_models.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "slipnav/math/rotation.h"
@@ -12,7 +13,24 @@ constexpr double kSecondsPerHour = 3600.0;
 
 double fromDegPerHour(double rate_deg_per_h) { return degToRad(rate_deg_per_h) / kSecondsPerHour; }
 
+/// Samples that are read together still have stamps of their own.
+constexpr Nanoseconds kLeastStep = 20000;
+
 }  // namespace
+
+HostClock::HostClock(const HostStampParams& params, double rate_hz, std::uint64_t seed, std::string_view purpose)
+    : params_(params), interval_s_(1.0 / rate_hz), stream_(seed, purpose) {}
+
+Nanoseconds HostClock::stamp(Nanoseconds instant) {
+  if (params_.exact()) {
+    return instant;
+  }
+  const double wait_s = interval_s_ * (params_.burst - 1 - in_burst_);
+  in_burst_ = (in_burst_ + 1) % params_.burst;
+  const double noise_s = params_.noise_s * std::clamp(stream_.normal(), -kLargestStampNoise, kLargestStampNoise);
+  last_ = std::max(last_ + kLeastStep, instant + fromSeconds(wait_s + params_.delay_s + noise_s));
+  return last_;
+}
 
 ImuModel::ImuModel(const ImuParams& params, std::uint64_t seed)
     : params_(params),
@@ -20,7 +38,8 @@ ImuModel::ImuModel(const ImuParams& params, std::uint64_t seed)
                                    degToRad(params.misalignment_yaw_deg))
                     .toRotationMatrix()
                     .transpose()),
-      stream_(seed, "imu") {
+      stream_(seed, "imu"),
+      walk_stream_(seed, "imu bias walk") {
   if (params_.error_free) {
     return;
   }
@@ -30,6 +49,9 @@ ImuModel::ImuModel(const ImuParams& params, std::uint64_t seed)
   turnOn(accel_, params_.accel_turn_on_bias_mg * 1e-3 * kStandardGravity_mps2, params_.scale_factor_ppm * 1e-6);
   gyro_.noise_density = degToRad(params_.gyro_noise_deg_per_sqrt_h) * per_sqrt_s;
   gyro_.in_run_sigma = fromDegPerHour(params_.gyro_in_run_bias_deg_per_h);
+  const double walk_per_sqrt_s = per_sqrt_s * kStandardGravity_mps2 * 1e-6;
+  accel_.walk_density = params_.accel_bias_walk_ug_per_sqrt_h * walk_per_sqrt_s;
+  gyro_.walk_density = fromDegPerHour(params_.gyro_bias_walk_deg_per_h_per_sqrt_h) * per_sqrt_s;
   turnOn(gyro_, fromDegPerHour(params_.gyro_turn_on_bias_deg_per_h), params_.scale_factor_ppm * 1e-6);
 }
 
@@ -44,7 +66,8 @@ Vector3 ImuModel::corrupt(Triad& triad, const Vector3& value, double dt_s) {
   const double persistence = std::exp(-dt_s / params_.bias_correlation_s);
   triad.in_run_bias = persistence * triad.in_run_bias +
                       triad.in_run_sigma * std::sqrt(1.0 - persistence * persistence) * stream_.normal3();
-  triad.bias = triad.turn_on_bias + triad.in_run_bias;
+  triad.walk += triad.walk_density * std::sqrt(dt_s) * walk_stream_.normal3();
+  triad.bias = triad.turn_on_bias + triad.in_run_bias + triad.walk;
   const Vector3 noise = triad.noise_density / std::sqrt(dt_s) * stream_.normal3();
   return value + triad.scale.cwiseProduct(value) + triad.bias + noise;
 }
@@ -58,12 +81,33 @@ ImuSample ImuModel::measure(const InertialMean& mean, Nanoseconds stamp, double 
   return sample;
 }
 
-EncoderModel::EncoderModel(const EncoderParams& params, Nanoseconds start, std::uint64_t seed)
-    : count_rad_(2.0 * kPi / params.counts_per_turn), last_stamp_(start) {
+EncoderModel::EncoderModel(const EncoderParams& params, Nanoseconds start, std::uint64_t seed, std::size_t wheels)
+    : params_(params),
+      count_(wheels),
+      count_rad_(2.0 * kPi / params.counts_per_turn),
+      start_(start),
+      last_stamp_(start) {
   RandomStream stream(seed, "encoder");
-  for (double& offset : offset_counts_) {
-    offset = stream.uniform();
+  for (std::size_t i = 0; i < count_; ++i) {
+    offset_counts_[i] = stream.uniform();
   }
+}
+
+bool EncoderModel::isDead(std::size_t wheel, Nanoseconds stamp) const {
+  return static_cast<int>(wheel) + 1 == params_.dead_wheel && toSeconds(stamp - start_) >= params_.dead_after_s;
+}
+
+/// Two: one wheel a side, the mean of front and back. Six: such a one between them.
+EncoderAngles EncoderModel::ofLayout(const PerWheel& angle_rad) const {
+  const double left = 0.5 * (angle_rad[0] + angle_rad[2]);
+  const double right = 0.5 * (angle_rad[1] + angle_rad[3]);
+  if (count_ == 2) {
+    return {left, right};
+  }
+  if (count_ == 6) {
+    return {angle_rad[0], angle_rad[1], left, right, angle_rad[2], angle_rad[3]};
+  }
+  return {angle_rad[0], angle_rad[1], angle_rad[2], angle_rad[3]};
 }
 
 double EncoderModel::quantise(double angle_rad, std::size_t wheel) const {
@@ -73,10 +117,11 @@ double EncoderModel::quantise(double angle_rad, std::size_t wheel) const {
 WheelSample EncoderModel::measure(const PerWheel& angle_rad, Nanoseconds stamp) {
   WheelSample sample;
   sample.stamp = stamp;
-  sample.count = kWheelCount;
+  sample.count = count_;
   const double dt_s = toSeconds(stamp - last_stamp_);
-  for (std::size_t i = 0; i < kWheelCount; ++i) {
-    const double quantised_rad = quantise(angle_rad[i], i);
+  const EncoderAngles angles_rad = ofLayout(angle_rad);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const double quantised_rad = isDead(i, stamp) ? last_angle_rad_[i] : quantise(angles_rad[i], i);
     sample.rate_radps[i] = (quantised_rad - last_angle_rad_[i]) / dt_s;
     last_angle_rad_[i] = quantised_rad;
   }

@@ -11,6 +11,7 @@
 #include "slipnav/sim/random.h"
 #include "slipnav/sim/rover_motion.h"
 #include "slipnav/sim/sensor_models.h"
+#include "slipnav/sim/shaking.h"
 #include "slipnav/sim/vibration.h"
 
 namespace slipnav::sim {
@@ -44,6 +45,8 @@ struct RoverSimulator::Parts {
   Parts(const SimulatorParams& p, const Planet& planet);
 
   Nanoseconds nextImuStamp();
+  InertialMean senseInertia(double interval_s);
+  void sampleWheels(const Kinematics& state, Nanoseconds stamp, Measurements& out);
   void sampleOthers(const Kinematics& before, Nanoseconds from, Nanoseconds to, Measurements& out);
   void updateTruth(Nanoseconds stamp);
 
@@ -54,31 +57,37 @@ struct RoverSimulator::Parts {
   RoverMotion motion;
   InertialTruth inertial;
   Vibration vibration;
+  Shaking shaking;
   ImuModel imu;
   EncoderModel encoder;
   GnssModel gps;
   GnssModel truth_gnss;
   SampleClock imu_clock, encoder_clock, gps_clock, truth_clock;
+  HostClock imu_host, encoder_host;
   RandomStream jitter_stream;
   TruthState truth;
 };
 
 RoverSimulator::Parts::Parts(const SimulatorParams& p, const Planet& planet)
     : params(p),
-      ground(groundByName(p.terrain)),
+      ground(changed(groundByName(p.terrain), p.ground)),
       frame(planet, startPosition(p)),
       start(fromSeconds(p.start_time_s)),
-      motion(p.vehicle, ground, Driver::routeOf(p).startHeading(), p.drive.initial_straight_m, seedOf(p)),
+      motion(p.vehicle, ground, Driver::routeOf(p).startHeading(), p.drive.initial_straight_m, seedOf(p), p.body,
+             {p.drive.initial_straight_m + p.drive.stuck_after_m, p.drive.stuck_s}),
       inertial(planet, frame, {p.imu.lever_arm_x_m, p.imu.lever_arm_y_m, p.imu.lever_arm_z_m}, motion.state()),
       vibration(ground, p.imu.error_free ? 0.0 : p.imu.vibration, p.imu.rate_hz, seedOf(p)),
+      shaking(p.imu.error_free ? ShakingParams{} : p.imu.shaking, p.imu.sampling == "mean", seedOf(p)),
       imu(p.imu, seedOf(p)),
-      encoder(p.encoder, start, seedOf(p)),
+      encoder(p.encoder, start, seedOf(p), wheelsOf(p.vehicle.layout)),
       gps(p.gps, frame, seedOf(p), "gps"),
       truth_gnss(p.truth, frame, seedOf(p), "truth gnss"),
       imu_clock(start, p.imu.rate_hz),
       encoder_clock(start, p.encoder.rate_hz),
       gps_clock(start, p.gps.rate_hz),
       truth_clock(start, p.truth.rate_hz),
+      imu_host(p.imu.host_stamps, p.imu.rate_hz, seedOf(p), "imu host"),
+      encoder_host(p.encoder.host_stamps, p.encoder.rate_hz, seedOf(p), "encoder host"),
       jitter_stream(seedOf(p), "imu jitter") {
   updateTruth(start);
 }
@@ -97,8 +106,7 @@ void RoverSimulator::Parts::sampleOthers(const Kinematics& before, Nanoseconds f
     return interpolate(before, motion.state(), static_cast<double>(stamp - from) / static_cast<double>(to - from));
   };
   if (const Nanoseconds stamp = encoder_clock.next(); stamp <= to) {
-    out.wheel = encoder.measure(at(stamp).wheel_angle_rad, stamp);
-    out.wheel_angle_rad = encoder.angles();
+    sampleWheels(at(stamp), stamp, out);
     encoder_clock.advance();
   }
   if (const Nanoseconds stamp = gps_clock.next(); stamp <= to) {
@@ -111,6 +119,27 @@ void RoverSimulator::Parts::sampleOthers(const Kinematics& before, Nanoseconds f
     out.truth = truth_gnss.measure(state.position_enu_m, state.C_b_to_enu, stamp);
     truth_clock.advance();
   }
+}
+
+void RoverSimulator::Parts::sampleWheels(const Kinematics& state, Nanoseconds stamp, Measurements& out) {
+  if (out.wheel) {
+    out.earlier_wheels.push_back({*out.wheel, out.wheel_angle_rad});
+  }
+  out.wheel = encoder.measure(state.wheel_angle_rad, stamp);
+  out.wheel->stamp = encoder_host.stamp(stamp);
+  out.wheel_angle_rad = encoder.angles();
+}
+
+/// What an ideal sensor would give for the interval that ends here.
+InertialMean RoverSimulator::Parts::senseInertia(double interval_s) {
+  const double speed_mps = motion.state().v_eb_b.norm();
+  const InertialMean mean = inertial.finish();
+  const InertialMean& smooth = params.imu.sampling == "mean" ? mean : inertial.instant();
+  InertialMean sensed = vibration.shake(smooth, interval_s, speed_mps);
+  const InertialMean shaken = shaking.sample(speed_mps);
+  sensed.f_ib_b += shaken.f_ib_b;
+  sensed.omega_ib_b += shaken.omega_ib_b;
+  return sensed;
 }
 
 void RoverSimulator::Parts::updateTruth(Nanoseconds stamp) {
@@ -159,11 +188,12 @@ Measurements RoverSimulator::step(const Command& command) {
     const Kinematics before = p.motion.state();
     p.motion.advance(command.forward_mps, command.yaw_rate_radps, dt_s);
     p.inertial.add(p.motion.state(), dt_s);
+    p.shaking.advance(p.motion.travel(), dt_s);
     p.sampleOthers(before, from, to, out);
     from = to;
   }
-  const InertialMean sensed = p.vibration.shake(p.inertial.finish(), interval_s, p.motion.state().v_eb_b.norm());
-  out.imu = p.imu.measure(sensed, end, interval_s);
+  out.imu = p.imu.measure(p.senseInertia(interval_s), end, interval_s);
+  out.imu.stamp = p.imu_host.stamp(end);
   p.updateTruth(end);
   return out;
 }

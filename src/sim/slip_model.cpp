@@ -44,7 +44,7 @@ std::vector<CorrelatedProcess> wheelProcesses(std::uint64_t seed) {
 
 SlipModel::SlipModel(const SlipParams& params, std::uint64_t seed)
     : params_(params),
-      mean_(params.mean * (1.0 + params.mean_spread * RandomStream(seed, "slip mean").normal())),
+      mean_(params.mean * (1.0 + params.mean_spread * RandomStream(seed, "slip mean").normal()) + params.offset),
       fast_left_(seed, "slip fast left", kFastCorrelation_m),
       fast_right_(seed, "slip fast right", kFastCorrelation_m),
       fast_both_(seed, "slip fast both", kFastCorrelation_m),
@@ -55,6 +55,7 @@ SlipModel::SlipModel(const SlipParams& params, std::uint64_t seed)
       heave_(seed, "heave", kStoneCorrelation_m),
       turn_centre_(seed, "turn centre", kTrackCorrelation_m),
       wheel_(wheelProcesses(seed)),
+      patches_(params.patch_length_m, params.patch_spacing_m, seed),
       impulse_stream_(seed, "slip impulses"),
       next_impulse_m_(0.0) {
   next_impulse_m_ -= std::log(1.0 - impulse_stream_.uniform()) / std::max(params_.impulses_per_m, 1e-12);
@@ -104,7 +105,8 @@ Slippage SlipModel::at(const Footing& footing) {
   addImpulses(travel_m, slippage);
   const double both = mean_ + footing.sin_climb * (params_.climb + params_.sinkage * footing.sin_climb) +
                       params_.slow * slow_both_.at(travel_m) +
-                      params_.fast * std::sqrt(kSharedFast) * fast_both_.at(travel_m);
+                      params_.fast * std::sqrt(kSharedFast) * fast_both_.at(travel_m) +
+                      (params_.patch > 0.0 ? params_.patch * patches_.at(travel_m) : 0.0);
   const double side = params_.fast * std::sqrt(1.0 - kSharedFast);
   slippage.left = footing.looseness * limited(slippage.left + both + side * fast_left_.at(travel_m));
   slippage.right = footing.looseness * limited(slippage.right + both + side * fast_right_.at(travel_m));

@@ -34,7 +34,8 @@ Transition transitionAt(const Vector2& from_centre_m) {
 }  // namespace
 
 Terrain::Terrain(const ReliefParams& relief, double start_heading_rad, double straight_m, std::uint64_t seed)
-    : firm_centre_m_(0.5 * straight_m * Vector2(std::sin(start_heading_rad), std::cos(start_heading_rad))) {
+    : firm_centre_m_(0.5 * straight_m * Vector2(std::sin(start_heading_rad), std::cos(start_heading_rad))),
+      tilt_(std::tan(degToRad(relief.tilt_deg)) * Vector2(std::sin(start_heading_rad), std::cos(start_heading_rad))) {
   RandomStream stream(seed, "terrain");
   setWaves({degToRad(relief.slope_deg), relief.slope_min_wavelength_m, relief.slope_max_wavelength_m, 0, kSlopeWaves},
            stream);
@@ -86,8 +87,8 @@ SurfacePoint Terrain::blended(const Vector2& east_north_m, const Phases& phases)
   const Transition blend = transitionAt(east_north_m - firm_centre_m_);
   SurfacePoint point;
   point.looseness = blend.value;
-  point.height_m = blend.value * open.height_m - start_height_m_;
-  point.gradient = blend.value * open.gradient + open.height_m * blend.gradient;
+  point.height_m = blend.value * open.height_m - start_height_m_ + tilt_.dot(east_north_m);
+  point.gradient = blend.value * open.gradient + open.height_m * blend.gradient + tilt_;
   const Eigen::Matrix2d mixed = blend.gradient * open.gradient.transpose();
   point.hessian_per_m = blend.value * open.hessian_per_m + mixed + mixed.transpose() + open.height_m * blend.hessian;
   return point;

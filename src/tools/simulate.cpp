@@ -2,14 +2,18 @@
 
 #include <chrono>
 #include <ctime>
+#include <filesystem>
 #include <iostream>
 #include <optional>
 
 #include "slipnav/config/command_line.h"
 #include "slipnav/config/config_options.h"
+#include "slipnav/eval/atomic_file.h"
 #include "slipnav/eval/simulated_run.h"
 #include "slipnav/ros/bag_evaluation.h"
 #include "slipnav/ros/bag_writer.h"
+#include "slipnav/ros/child_process.h"
+#include "slipnav/sim/world_files.h"
 
 namespace {
 
@@ -17,14 +21,27 @@ using slipnav::Arguments;
 using slipnav::CommandLine;
 using slipnav::Config;
 
+/// Where worlds and grades are: installed, or in the source tree.
+std::string configurationFolder(const std::string& kind) {
+  const std::filesystem::path installed = slipnav::packageExecutable("../../share/slipnav/config");
+  const std::filesystem::path folder =
+      std::filesystem::is_directory(installed / kind) ? installed : std::filesystem::path(SLIPNAV_CONFIG_DIR);
+  return (folder / kind).string();
+}
+
 CommandLine commandLine() {
   CommandLine command_line("simulate", "Drives a simulated rover in closed loop and measures its navigation.");
-  command_line.choice("terrain", {"paved", "unpaved", "gravel", "rough", "rocking"}, "the ground", "rough")
+  command_line
+      .option("world", "NAME", "ground, body, sensors and operator of config/worlds; 'list' names them; see --grade")
+      .option("grade", "NAME", "the IMU and its data sheet: one of config/grades; 'list' names them")
+      .choice("terrain", {"paved", "unpaved", "gravel", "rough", "rocking"}, "the ground", "rough")
       .option("distance", "M", "metres to drive after the initialisation", "150")
       .option("seed", "N", "makes terrain, slip and sensor errors", "1")
       .option("policy", "P", "when to stop: none, periodic:EVERY_S:HOLD_S, autonomous", "periodic:12:3")
       .option("threshold", "M", "error bound at which autonomous stops come; forecast.threshold_m")
       .option("out", "DIR", "where metrics.json, timeline.csv, forecasts.csv, estimate.tum, truth.tum go")
+      .option("figures", "FILE",
+              "metrics and simulation figures as one JSON object; without --out no baselines are run")
       .option("bag", "FILE", "record the sensors and the truth, as a robot would")
       .flag("report", "plots into the output directory");
   slipnav::declareConfigOptions(command_line);
@@ -35,9 +52,21 @@ Config configuration(const Arguments& arguments) {
   if (arguments.given("report") && !arguments.given("out")) {
     throw slipnav::UsageError("--report needs --out");
   }
-  Config config = slipnav::configFromOptions(arguments);
-  config.simulator.terrain = arguments.text("terrain");
-  config.simulator.drive.distance_m = arguments.number("distance", {1.0, 1e6});
+  std::vector<std::string> files;
+  for (const char* kind : {"grade", "world"}) {
+    if (arguments.given(kind)) {
+      const std::string folder = configurationFolder(std::string(kind) + "s");
+      files.push_back(slipnav::sim::configurationNamed(arguments.text(kind), folder, kind));
+    }
+  }
+  Config config = slipnav::configFromOptions(arguments, files);
+  const bool has_world = arguments.given("world");
+  if (!has_world || arguments.given("terrain")) {
+    config.simulator.terrain = arguments.text("terrain");
+  }
+  if (!has_world || arguments.given("distance")) {
+    config.simulator.drive.distance_m = arguments.number("distance", {1.0, 1e6});
+  }
   if (arguments.given("threshold")) {
     config.forecast.threshold_m = arguments.number("threshold", {1e-3, 1e4});
   }
@@ -46,18 +75,52 @@ Config configuration(const Arguments& arguments) {
 }
 
 /// Drives, navigates and records; returns what there is to say about it.
-slipnav::RunReport drive(const Config& config, slipnav::StopPolicy& policy, const std::string& bag) {
+slipnav::SimulationReport drive(const Config& config, slipnav::StopPolicy& policy, const std::string& bag,
+                                bool with_baselines) {
   if (bag.empty()) {
-    return slipnav::simulateAndMeasure(config, policy);
+    return slipnav::simulateAndMeasure(config, policy, {}, with_baselines);
   }
   slipnav::BagWriter recorder(bag, config);
-  const slipnav::RunReport report = slipnav::simulateAndMeasure(
+  const slipnav::SimulationReport report = slipnav::simulateAndMeasure(
       config, policy,
       [&recorder](const slipnav::sim::Measurements& measurements, const slipnav::sim::TruthState& truth) {
         recorder.write(measurements, truth);
-      });
+      },
+      with_baselines);
   recorder.close();
   return report;
+}
+
+/// Prints the names where they were asked for. @return whether they were
+bool listNames(const Arguments& arguments) {
+  bool listed = false;
+  for (const char* kind : {"world", "grade"}) {
+    if (arguments.given(kind) && arguments.text(kind) == "list") {
+      for (const std::string& name : slipnav::sim::configurationsIn(configurationFolder(std::string(kind) + "s"))) {
+        std::cout << name << '\n';
+      }
+      listed = true;
+    }
+  }
+  return listed;
+}
+
+void writeFiles(const Arguments& arguments, const slipnav::SimulationReport& report) {
+  if (arguments.given("out")) {
+    slipnav::writeRunReport(arguments.text("out"), report.run);
+    slipnav::AtomicFile file((std::filesystem::path(arguments.text("out")) / "simulation.json").string());
+    file.stream() << slipnav::figuresJson(report.figures);
+    file.commit();
+  }
+  if (arguments.given("figures")) {
+    slipnav::AtomicFile file(arguments.text("figures"));
+    file.stream() << "{\"metrics\": " << slipnav::metricsJson(report.run.metrics)
+                  << ", \"simulation\": " << slipnav::figuresJson(report.figures) << "}\n";
+    file.commit();
+  }
+  if (arguments.given("report")) {
+    slipnav::plotReport(arguments.text("out"));
+  }
 }
 
 int run(int argc, char** argv) {
@@ -67,25 +130,25 @@ int run(int argc, char** argv) {
     std::cout << command_line.help();
     return 0;
   }
+  if (listNames(arguments)) {
+    return 0;
+  }
   const Config config = configuration(arguments);
   const std::unique_ptr<slipnav::StopPolicy> policy = slipnav::makeStopPolicy(arguments.text("policy"), config.stop);
   const std::clock_t cpu = std::clock();
   const auto wall = std::chrono::steady_clock::now();
-  slipnav::RunReport report = drive(config, *policy, arguments.text("bag"));
-  report.metrics.cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
-  report.metrics.realtime_factor =
-      report.metrics.duration_s / std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
-  if (arguments.given("out")) {
-    slipnav::writeRunReport(arguments.text("out"), report);
-  }
-  if (arguments.given("report")) {
-    slipnav::plotReport(arguments.text("out"));
-  }
-  const std::string name = arguments.text("terrain") + " " + arguments.text("seed");
   const bool autonomous = arguments.text("policy") == "autonomous";
+  const bool with_baselines = autonomous || arguments.given("out") || !arguments.given("figures");
+  slipnav::SimulationReport report = drive(config, *policy, arguments.text("bag"), with_baselines);
+  slipnav::Metrics& metrics = report.run.metrics;
+  metrics.cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
+  metrics.realtime_factor =
+      metrics.duration_s / std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+  writeFiles(arguments, report);
+  const std::string name =
+      arguments.text(arguments.given("world") ? "world" : "terrain") + " " + arguments.text("seed");
   std::cout << slipnav::tableHeader()
-            << slipnav::tableRow(name, autonomous ? std::optional(config.forecast.threshold_m) : std::nullopt,
-                                 report.metrics);
+            << slipnav::tableRow(name, autonomous ? std::optional(config.forecast.threshold_m) : std::nullopt, metrics);
   return 0;
 }
 

@@ -110,7 +110,8 @@ def commands():
 
 
 # What a script of this name only starts.
-PYTHON_PROGRAMS = {"tables": "scripts/paper_tables.py", "foreign": "scripts/foreign_drives.py"}
+PYTHON_PROGRAMS = {"tables": "scripts/paper_tables.py", "foreign": "scripts/foreign_drives.py",
+                   "zoo": "scripts/zoo_campaign.py"}
 
 
 def options_of(command):

@@ -78,7 +78,7 @@ void driveThroughNodelets(const std::string& folder) {
 TEST(SimulateEquality, TheDriveIsThatOfTheOfflineSimulation) {
   const Config config = configFromParameters(ros::NodeHandle(), "slipnav");
   const TemporaryFolder folder;
-  const RunReport offline = simulateAndMeasure(config, *makeStopPolicy("autonomous", config.stop));
+  const RunReport offline = simulateAndMeasure(config, *makeStopPolicy("autonomous", config.stop)).run;
   EXPECT_GE(offline.metrics.stop_count, 2);
   writeRunReport(folder / "offline", offline);
   driveThroughNodelets(folder / "nodelets");

@@ -158,7 +158,7 @@ TEST(SimEncoder, CountsAreWholeAndRatesAreTheirDifferences) {
   params.counts_per_turn = 400.0;
   const double count_rad = 2.0 * kPi / params.counts_per_turn;
   EncoderModel encoder(params, 0, 9);
-  PerWheel last = encoder.angles();
+  EncoderAngles last = encoder.angles();
   for (int k = 1; k <= 200; ++k) {
     const double angle = 0.0313 * k;
     const WheelSample sample = encoder.measure({angle, -angle, 2.0 * angle, 0.0}, k * fromSeconds(0.1));
@@ -265,8 +265,8 @@ TEST(SimParams, OutOfRangeAndTooFastSensorsAreNamed) {
   params.imu.rate_hz = 5.0;
   EXPECT_NE(complaint(params).find("imu.rate_hz"), std::string::npos);
   params = SimulatorParams();
-  params.encoder.rate_hz = 40.0;
-  EXPECT_NE(complaint(params).find("encoder.rate_hz"), std::string::npos);
+  params.truth.rate_hz = 40.0;
+  EXPECT_NE(complaint(params).find("truth.rate_hz"), std::string::npos);
   params = SimulatorParams();
   params.terrain = "lava";
   EXPECT_NE(complaint(params).find("terrain"), std::string::npos);

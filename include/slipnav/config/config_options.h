@@ -10,6 +10,7 @@ namespace slipnav {
 void declareConfigOptions(CommandLine& command_line);
 
 /// The configuration that those options describe. Throws std::invalid_argument, see Config::load().
-Config configFromOptions(const Arguments& arguments);
+/// @param first files that come before those of the options
+Config configFromOptions(const Arguments& arguments, std::vector<std::string> first = {});
 
 }  // namespace slipnav

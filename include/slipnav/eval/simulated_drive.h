@@ -46,6 +46,9 @@ void pushMeasurements(const sim::Measurements& measurements, const WheelGeometry
   if (measurements.gps) {
     navigation.push(toPositionFix(*measurements.gps));
   }
+  for (const sim::WheelReading& earlier : measurements.earlier_wheels) {
+    navigation.push(toWheelMotion(geometry, earlier.sample));
+  }
   if (measurements.wheel) {
     navigation.push(toWheelMotion(geometry, *measurements.wheel));
   }

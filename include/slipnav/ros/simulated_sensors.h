@@ -23,7 +23,7 @@ class SimulatedSensors {
   /// In the sensor's own axes, as configured in imu.mount.
   sensor_msgs::Imu imu(const ImuSample& sample) const;
   /// Positions and velocities, by the names and signs of the configured wheels.
-  sensor_msgs::JointState joints(const WheelSample& sample, const sim::PerWheel& angle_rad) const;
+  sensor_msgs::JointState joints(const WheelSample& sample, const sim::EncoderAngles& angle_rad) const;
   sensor_msgs::NavSatFix fix(const GnssFix& fix) const;
   /// The exact pose and motion of base_link, in a map frame about the pose of the first call.
   nav_msgs::Odometry truth(const sim::TruthState& truth);

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "slipnav/sim/params.h"
 #include "slipnav/sim/slip_model.h"
 #include "slipnav/sim/terrain.h"
 
@@ -25,5 +26,8 @@ inline constexpr std::initializer_list<const char*> kTerrainNames = {"paved", "u
 
 /// Throws std::invalid_argument that names an unknown terrain.
 GroundParams groundByName(const std::string& name);
+
+/// The same ground with what is to be different.
+GroundParams changed(GroundParams ground, const GroundChangeParams& change);
 
 }  // namespace slipnav::sim

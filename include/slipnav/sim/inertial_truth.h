@@ -23,6 +23,8 @@ class InertialTruth {
   void add(const Kinematics& state, double dt_s);
   /// The means over all steps added since the last call.
   InertialMean finish();
+  /// What holds at the end of the last fine step, for a sensor that samples at an instant.
+  const InertialMean& instant() const { return instant_; }
 
   /// Rotation of the planet in the tangent plane's axes [rad/s].
   const Vector3& omega_ie_enu() const { return omega_ie_enu_; }
@@ -42,6 +44,7 @@ class InertialTruth {
   Matrix3 rotation_sum_ = Matrix3::Zero();                  ///< ∫ C dt
   Vector3 angular_acceleration_b_ = Vector3::Zero();        ///< in the last step [rad/s²]
   Vector3 start_angular_acceleration_b_ = Vector3::Zero();  ///< at the start of the interval [rad/s²]
+  InertialMean instant_;
   double last_dt_s_ = 0.0;
   double time_s_ = 0.0;
 };

@@ -15,12 +15,17 @@ struct RoutePoint {
   double heading_rad = 0.0;  ///< from north towards east
 };
 
+/// What follows the straight start.
+enum class RouteShape { kWinding, kCircle, kStraight };
+
 /// A polyline, and the place on it that the rover has come to.
 class Route {
  public:
   /// @param straight_m length of the straight start
   /// @param length_m total length that must be available
-  Route(std::uint64_t seed, double straight_m, double length_m);
+  /// @param radius of the circle [m]; of a winding route: factor on the radii of its turns
+  Route(std::uint64_t seed, double straight_m, double length_m, RouteShape shape = RouteShape::kWinding,
+        double radius = 1.0);
 
   /// Heading of the straight start [rad].
   double startHeading() const { return points_.front().heading_rad; }
@@ -31,6 +36,8 @@ class Route {
 
  private:
   void append(double curvature_per_m);
+  /// Legs and turns until the length is there.
+  void wind(RandomStream& stream, std::size_t count, double radius_factor);
   /// An arc to a heading, the shorter way round.
   void appendTurn(double heading_rad, double radius_m);
   /// A gentle double bend that ends with the heading it began with.

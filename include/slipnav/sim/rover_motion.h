@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "slipnav/sim/body_motion.h"
 #include "slipnav/sim/drive_train.h"
 #include "slipnav/sim/ground.h"
 #include "slipnav/sim/params.h"
@@ -28,22 +29,40 @@ struct Kinematics {
 /// Slip ratio of the paper: 1 − v/(rω) when driving, rω/v − 1 when braking, within [−1, 1]; 0 at standstill.
 double slipRatio(double ground_speed_mps, double surface_speed_mps);
 
+/// A place where the wheels spin for a while and the rover stands.
+struct StuckPlace {
+  double distance_m = 0.0;  ///< after so much way
+  double duration_s = 0.0;
+};
+
 /// Integrates commands to poses, with the slip of the ground.
 class RoverMotion {
  public:
   RoverMotion(const VehicleParams& vehicle, const GroundParams& ground, double start_heading_rad, double straight_m,
-              std::uint64_t seed);
+              std::uint64_t seed, const BodyParams& body = {}, const StuckPlace& stuck = {});
 
-  /// Moves on by one fine step under a command; at rest the state stays exactly as it is.
+  /// Moves on by one fine step under a command; once nothing moves, the state stays exactly as it is.
   void advance(double forward_mps, double yaw_rate_radps, double dt_s);
 
   const Kinematics& state() const { return state_; }
+  /// Way of the wheels' surface [m], never decreasing.
+  double travel() const { return value_[kTravel]; }
   /// The true radii [m], which the estimator does not know.
   const PerWheel& wheelRadii() const { return radius_m_; }
 
  private:
   /// What is integrated over time.
-  enum Index { kEast, kNorth, kHeading, kTravel, kDistance, kWheelAngle, kIntegralCount = kWheelAngle + kWheelCount };
+  enum Index {
+    kEast,
+    kNorth,
+    kHeading,
+    kTravel,
+    kDistance,
+    kWheelAngle,
+    kBody = kWheelAngle + kWheelCount,  ///< place of a sprung body, then its rate
+    kBodyRate = kBody + kBodyAxes,
+    kIntegralCount = kBodyRate + kBodyAxes
+  };
   using Integrals = Eigen::Matrix<double, kIntegralCount, 1>;
   /// What the multi-step integration remembers.
   struct History {
@@ -59,6 +78,9 @@ class RoverMotion {
   void moveBody(const SurfacePoint& surface, const Slippage& slippage);
   void addHeave(const Slippage& slippage);
   void turnWheels(const Slippage& slippage, double yaw_rate_radps);
+  void rockBody();
+  bool bodyHolds();
+  double grip() const;
 
   VehicleParams vehicle_;
   TerrainFollower terrain_;
@@ -66,6 +88,9 @@ class RoverMotion {
   PerWheel radius_m_;
   SpeedRamp forward_;
   SpeedRamp difference_;  ///< half the left wheels' speed minus the right ones'
+  BodyMotion body_;
+  StuckPlace stuck_;
+  double stuck_time_s_ = 0.0;  ///< since it got stuck
   Integrals value_ = Integrals::Zero();
   Integrals rate_ = Integrals::Zero();
   History history_;

@@ -23,6 +23,22 @@ class SampleClock {
   std::int64_t index_ = 1;
 };
 
+/// Stamps of a host that reads samples late, irregularly, or several at once. In the order of the samples.
+class HostClock {
+ public:
+  HostClock(const HostStampParams& params, double rate_hz, std::uint64_t seed, std::string_view purpose);
+
+  /// The stamp of the next sample, whose true instant is given.
+  Nanoseconds stamp(Nanoseconds instant);
+
+ private:
+  HostStampParams params_;
+  double interval_s_;
+  RandomStream stream_;
+  Nanoseconds last_ = 0;
+  int in_burst_ = 0;
+};
+
 /// Noise, turn-on and in-run biases, scale factors, misalignment.
 class ImuModel {
  public:
@@ -41,8 +57,10 @@ class ImuModel {
     double in_run_sigma = 0.0;
     Vector3 scale = Vector3::Zero();
     Vector3 turn_on_bias = Vector3::Zero();
+    double walk_density = 0.0;
     Vector3 in_run_bias = Vector3::Zero();
-    Vector3 bias = Vector3::Zero();  ///< sum of both
+    Vector3 walk = Vector3::Zero();
+    Vector3 bias = Vector3::Zero();  ///< sum of the three
   };
   void turnOn(Triad& triad, double turn_on_sigma, double scale_sigma);
   Vector3 corrupt(Triad& triad, const Vector3& value, double dt_s);
@@ -50,6 +68,7 @@ class ImuModel {
   ImuParams params_;
   Matrix3 C_b_to_s_;  ///< true mounting: body to sensor axes
   RandomStream stream_;
+  RandomStream walk_stream_;
   Triad accel_;
   Triad gyro_;
 };
@@ -57,18 +76,24 @@ class ImuModel {
 /// Quantised wheel angles and the mean rates between them.
 class EncoderModel {
  public:
-  EncoderModel(const EncoderParams& params, Nanoseconds start, std::uint64_t seed);
+  /// @param wheels 2, 4 or 6
+  EncoderModel(const EncoderParams& params, Nanoseconds start, std::uint64_t seed, std::size_t wheels = kWheelCount);
 
   WheelSample measure(const PerWheel& angle_rad, Nanoseconds stamp);
   /// Quantised angles of the last sample, from zero at the start [rad].
-  const PerWheel& angles() const { return last_angle_rad_; }
+  const EncoderAngles& angles() const { return last_angle_rad_; }
 
  private:
   double quantise(double angle_rad, std::size_t wheel) const;
+  bool isDead(std::size_t wheel, Nanoseconds stamp) const;
+  EncoderAngles ofLayout(const PerWheel& angle_rad) const;
 
+  EncoderParams params_;
+  std::size_t count_;
   double count_rad_;
-  PerWheel offset_counts_;  ///< where in a count each wheel stands at the start
-  PerWheel last_angle_rad_ = {};
+  EncoderAngles offset_counts_ = {};  ///< where in a count each wheel stands at the start
+  EncoderAngles last_angle_rad_ = {};
+  Nanoseconds start_;
   Nanoseconds last_stamp_;
 };
 

@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "slipnav/earth/planet.h"
 #include "slipnav/sensors.h"
@@ -26,13 +27,20 @@ struct Command {
   double yaw_rate_radps = 0.0;  ///< about body down: positive turns right
 };
 
-/// What the sensors give in one IMU interval. The optional ones have stamps inside that interval.
+/// One sample of the encoders.
+struct WheelReading {
+  WheelSample sample;
+  EncoderAngles angle_rad = {};  ///< accumulated, quantised
+};
+
+/// What the sensors give in one IMU interval. The optional ones were taken inside that interval.
 struct Measurements {
   ImuSample imu;
   std::optional<WheelSample> wheel;
-  PerWheel wheel_angle_rad = {};  ///< accumulated, quantised; goes with `wheel`
-  std::optional<GnssFix> gps;     ///< for initialisation
-  std::optional<GnssFix> truth;   ///< for metrics only
+  EncoderAngles wheel_angle_rad = {};        ///< accumulated, quantised; goes with `wheel`
+  std::vector<WheelReading> earlier_wheels;  ///< before `wheel`, when encoders are faster than the IMU
+  std::optional<GnssFix> gps;                ///< for initialisation
+  std::optional<GnssFix> truth;              ///< for metrics only
 };
 
 /// The rover, the ground under it, and its sensors.

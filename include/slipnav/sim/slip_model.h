@@ -5,6 +5,7 @@
 
 #include "slipnav/sim/correlated_process.h"
 #include "slipnav/sim/random.h"
+#include "slipnav/sim/soft_patches.h"
 #include "slipnav/sim/truth_state.h"
 
 namespace slipnav::sim {
@@ -28,6 +29,10 @@ struct SlipParams {
   double turn_centre_m = 0.0;        ///< 1σ along the vehicle of the point that does not move sideways in a turn
   double track_factor = 1.0;         ///< effective over geometric track when the rover turns (scrub)
   double track_factor_spread = 0.0;  ///< 1σ along the way
+  double offset = 0.0;               ///< persistent part on top, the same in every drive
+  double patch = 0.0;                ///< on top in soft patches
+  double patch_length_m = 3.0;       ///< mean
+  double patch_spacing_m = 10.0;     ///< mean, of what lies between two patches
 };
 
 /// Where the rover is, as far as slip is concerned.
@@ -75,6 +80,7 @@ class SlipModel {
   double mean_;
   CorrelatedProcess fast_left_, fast_right_, fast_both_, slow_both_, lateral_, track_, sway_, heave_, turn_centre_;
   std::vector<CorrelatedProcess> wheel_;
+  SoftPatches patches_;
   RandomStream impulse_stream_;
   double next_impulse_m_;
   std::vector<Impulse> active_;

@@ -17,6 +17,7 @@ struct ReliefParams {
   double roughness_deg = 0.0;  ///< of the short waves, before the vehicle's footprint smooths them
   double roughness_min_wavelength_m = 0.7;
   double roughness_max_wavelength_m = 10.0;
+  double tilt_deg = 0.0;  ///< of the whole plane, the firm area included; uphill in the direction of the start
 };
 
 /// The surface that the centre of the wheels follows, at one place.
@@ -70,6 +71,7 @@ class Terrain {
   Vector2 firm_centre_m_;
   double centre_height_m_ = 0.0;  ///< of the open terrain, so that the blend starts from zero height
   double start_height_m_ = 0.0;
+  Vector2 tilt_;  ///< gradient of the whole plane
 };
 
 /// The same surface for someone who asks at places close to each other: sines come from those at a nearby anchor by

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "slipnav/earth/planet.h"
+#include "slipnav/sensors.h"
 #include "slipnav/types.h"
 
 namespace slipnav::sim {
@@ -11,6 +12,8 @@ namespace slipnav::sim {
 /// Order of wheels everywhere: front left, front right, back left, back right.
 inline constexpr std::size_t kWheelCount = 4;
 using PerWheel = std::array<double, kWheelCount>;
+/// Angle of each wheel that has an encoder, in the order of WheelSample.
+using EncoderAngles = std::array<double, kMaxWheels>;
 
 /// Pose and motion are those of base_link, the centre of the four wheel centres. Body axes: forward, right, down.
 struct TruthState {
@@ -20,7 +23,7 @@ struct TruthState {
   Quaternion q_b_to_n = Quaternion::Identity();  ///< attitude in north-east-down, with vibration
   Vector3 v_eb_n = Vector3::Zero();              ///< velocity over the planet, with vibration [m/s]
   double heading_rad = 0.0;                      ///< from north towards east, without vibration
-  Vector3 v_eb_b = Vector3::Zero();              ///< velocity in body axes, without vibration; z is 0 [m/s]
+  Vector3 v_eb_b = Vector3::Zero();              ///< velocity in body axes, without vibration [m/s]
   Vector3 omega_ib_b = Vector3::Zero();          ///< w.r.t. inertial space, without vibration [rad/s]
   Vector3 accel_bias_mps2 = Vector3::Zero();     ///< the sensor's own, in its axes [m/s²]
   Vector3 gyro_bias_radps = Vector3::Zero();     ///< the sensor's own, in its axes [rad/s]

@@ -1,0 +1,108 @@
+"""One simulated drive in a named world, and the figures that it leaves."""
+
+import concurrent.futures
+import json
+import math
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from typing import Tuple
+
+from .evaluation import NO_FORECASTS, Failure, ratio, run_tool, scaled
+
+NO_STOPS = "none"
+STOPS = "periodic:60:5"
+
+
+@dataclass(frozen=True)
+class Drive:
+    world: str
+    grade: str
+    policy: str
+    seed: int
+    settings: Tuple[str, ...] = ()
+
+    def __str__(self):
+        return f"{self.world}, {self.grade}, {self.policy}, seed {self.seed}"
+
+    def arguments(self, figures):
+        listed = ["--world", self.world, "--grade", self.grade, "--policy", self.policy, "--seed", str(self.seed),
+                  "--figures", figures]
+        for setting in (NO_FORECASTS,) + self.settings:
+            listed += ["--set", setting]
+        return listed
+
+
+@dataclass(frozen=True)
+class Figures:
+    metrics: dict
+    simulation: dict
+
+    @property
+    def final_pct(self):
+        return ratio(scaled(self.metrics["horizontal_final_m"], 100.0), self.metrics["distance_m"])
+
+    @property
+    def alarms(self):
+        return [alarm["what"] for alarm in self.simulation["alarms"]]
+
+
+def drive_one(executable, drive):
+    """Figures, or Failure."""
+    handle, path = tempfile.mkstemp(prefix="slipnav_zoo_", suffix=".json")
+    os.close(handle)
+    try:
+        run_tool([executable] + drive.arguments(path))
+        with open(path, encoding="utf-8") as file:
+            read = json.load(file)
+        return Figures(read["metrics"], read["simulation"])
+    except Failure as failure:
+        return failure
+    except (OSError, ValueError, KeyError) as error:
+        return Failure(f"{type(error).__name__}: {error}")
+    finally:
+        os.unlink(path)
+
+
+def drive_all(executable, drives, jobs):
+    """{drive: Figures or Failure}, in the order of the drives."""
+    outcomes = {}
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        for drive, outcome in zip(drives, pool.map(lambda one: drive_one(executable, one), drives)):
+            outcomes[drive] = outcome
+            if sys.stderr.isatty():
+                sys.stderr.write(f"\r\033[K{len(outcomes)} of {len(drives)} drives")
+                sys.stderr.flush()
+    if sys.stderr.isatty():
+        sys.stderr.write("\n")
+    return outcomes
+
+
+def names(executable, kind):
+    """Worlds or grades that there are."""
+    listed = subprocess.run([executable, "--" + kind, "list"], check=True, capture_output=True, text=True)
+    return listed.stdout.split()
+
+
+def values(figures, key):
+    """Of metrics or simulation figures, infinite where there is none."""
+    found = []
+    for one in figures:
+        value = one.metrics.get(key, one.simulation.get(key))
+        found.append(math.inf if value is None else value)
+    return found
+
+
+def mean(numbers):
+    return statistics.fmean(numbers) if numbers else math.nan
+
+
+def groups(outcomes):
+    """{(world, grade, policy, settings): [(drive, outcome), …]}."""
+    found = {}
+    for drive, outcome in outcomes.items():
+        found.setdefault((drive.world, drive.grade, drive.policy, drive.settings), []).append((drive, outcome))
+    return found
