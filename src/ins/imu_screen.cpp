@@ -6,7 +6,6 @@
 namespace slipnav {
 namespace {
 
-constexpr double kPeriodGain = 0.05;
 /// Far below the noise of any IMU, in SI units; a mounting by quarter turns leaves traces of the other axes.
 constexpr double kSame = 1e-9;
 
@@ -70,7 +69,7 @@ void ImuScreen::reset() {
   force_ = Repeats();
   rate_ = Repeats();
   newest_stamp_ = 0;
-  period_s_ = 0.0;
+  usual_.reset();
 }
 
 ImuScreen::Result ImuScreen::check(const ImuSample& sample) {
@@ -95,10 +94,11 @@ ImuScreen::Result ImuScreen::check(const ImuSample& sample) {
     return {};
   }
   const double duration_s = toSeconds(since);
-  if (period_s_ > 0.0 && duration_s > params_.gap_factor * period_s_) {
-    return {ImuVerdict::kAfterGap, duration_s, duration_s - period_s_};
+  const double usual_s = usual_.value();
+  usual_.add(duration_s);
+  if (usual_s > 0.0 && duration_s > params_.gap_factor * usual_s) {
+    return {ImuVerdict::kAfterGap, duration_s, duration_s - usual_s};
   }
-  period_s_ += (period_s_ > 0.0 ? kPeriodGain : 1.0) * (duration_s - period_s_);
   return {ImuVerdict::kAccepted, duration_s, 0.0};
 }
 

@@ -1,6 +1,9 @@
 #include "slipnav/navigator/health.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <sstream>
+#include <utility>
 
 namespace slipnav {
 namespace {
@@ -8,6 +11,14 @@ namespace {
 /// A measurement that has been rejected for so long contradicts; single ones are outliers.
 constexpr double kRejected_s = 1.0;
 constexpr double kActive_s = 5.0;
+/// A size is said again when it has grown by so much.
+constexpr double kGrowth = 1.25;
+
+std::string formatSize(double value) {
+  std::ostringstream text;
+  text << std::setprecision(2) << value;
+  return text.str();
+}
 
 }  // namespace
 
@@ -24,6 +35,35 @@ void HealthMonitor::note(const std::string& name, Nanoseconds stamp) {
     alarm.first = stamp;
   }
   alarm.last = stamp;
+}
+
+void HealthMonitor::noteSized(const std::string& name, double size, const std::string& unit, Nanoseconds stamp) {
+  const auto nameOf = [&name, &unit](double value) { return name + ' ' + formatSize(value) + ' ' + unit; };
+  const auto [known, is_new] = sizes_.emplace(name, size);
+  if (!is_new && size > kGrowth * known->second) {
+    auto grown = alarms_.extract(nameOf(known->second));
+    known->second = size;
+    grown.key() = nameOf(size);
+    alarms_.insert(std::move(grown));
+  }
+  note(nameOf(known->second), stamp);
+}
+
+void HealthMonitor::noteStamps(const StampFaults& faults, Nanoseconds stamp) {
+  if (faults.scatters() && faults.scatter_s != stamp_faults_.scatter_s) {
+    noteSized("IMU stamps scatter by", 1e3 * faults.scatter_s, "ms", stamp);
+  }
+  for (std::uint64_t i = stamp_faults_.equal; i < faults.equal; ++i) {
+    note("IMU stamps equal", stamp);
+  }
+  for (std::uint64_t i = stamp_faults_.lost; i < faults.lost; ++i) {
+    note("IMU samples lost", stamp);
+  }
+  stamp_faults_ = faults;
+}
+
+void HealthMonitor::noteSetBack(double step_s, Nanoseconds stamp) {
+  note("clock set back by " + formatSize(step_s) + " s", stamp);
 }
 
 void HealthMonitor::noteImu(Nanoseconds stamp, ImuVerdict verdict) {

@@ -8,6 +8,7 @@ Pipeline::Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEng
     : planet_(planet),
       setup_(setup),
       sink_(std::move(sink)),
+      imu_clock_(setup.imu_input.gap_factor),
       initializer_(planet, setup.initialization, setup.imu_input, setup.filter),
       navigator_(planet, setup.imu_input, setup.filter),
       health_(setup.filter) {}
@@ -22,6 +23,14 @@ void Pipeline::restart() {
 
 void Pipeline::push(const ImuSample& sample) {
   ++counts_.imu;
+  imu_clock_.push(sample);
+  while (const std::optional<ImuSample> corrected = imu_clock_.pop()) {
+    use(*corrected);
+  }
+  health_.noteStamps(imu_clock_.faults(), sample.stamp);
+}
+
+void Pipeline::use(const ImuSample& sample) {
   ImuVerdict verdict = navigator_.push(sample, sink_);
   health_.noteImu(sample.stamp, verdict);
   health_.noteFilter(navigator_.filter());

@@ -37,6 +37,7 @@ void SampleMerger::insert(const Sample& sample) {
   if (is_imu) {
     stream.waiting.push_back({instant, sample});
     newest_imu_ = stream.newest;
+    offsets_.resize(instant.session + 1, time_.add(instant.stamp) - instant.stamp);
     return;
   }
   const auto later = [](const Instant& before, const Entry& entry) { return before < entry.instant; };
@@ -64,20 +65,27 @@ bool SampleMerger::isCertain(const Instant& instant, const Instant& trusted) con
          (trusted.session == instant.session && trusted.stamp - instant.stamp >= max_wait_);
 }
 
+Nanoseconds SampleMerger::offsetAfter(std::size_t steps) const {
+  return offsets_.empty() ? 0 : offsets_[std::min(steps, offsets_.size() - 1)];
+}
+
+void SampleMerger::release(Stream& stream, const Sink& sink) {
+  Entry entry = stream.waiting.front();
+  stream.waiting.pop_front();
+  std::visit([offset = offsetAfter(entry.instant.session)](auto& sample) { sample.stamp += offset; }, entry.sample);
+  sink(entry.sample);
+}
+
 void SampleMerger::advance(const Instant& trusted, const Sink& sink) {
   for (Stream* stream = earliest(); stream != nullptr && isCertain(stream->waiting.front().instant, trusted);
        stream = earliest()) {
-    const Sample sample = stream->waiting.front().sample;
-    stream->waiting.pop_front();
-    sink(sample);
+    release(*stream, sink);
   }
 }
 
 void SampleMerger::flush(const Sink& sink) {
   for (Stream* stream = earliest(); stream != nullptr; stream = earliest()) {
-    const Sample sample = stream->waiting.front().sample;
-    stream->waiting.pop_front();
-    sink(sample);
+    release(*stream, sink);
   }
 }
 

@@ -21,6 +21,7 @@
 #include "slipnav/navigator/health.h"
 #include "slipnav/navigator/jump_filter.h"
 #include "slipnav/ros/checkpoint_keeper.h"
+#include "slipnav/ros/continuous_wheels.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
 #include "slipnav/ros/estimate_publisher.h"
@@ -136,6 +137,7 @@ class FilterNodelet : public CoreNodelet {
       requestStart();
       return;
     }
+    learnTime(timeOf(*message));
     const Nanoseconds first_end = toNanoseconds(message->steps.front().state.stamp);
     if (!has_steps_) {
       first_end_ = first_end;
@@ -171,6 +173,7 @@ class FilterNodelet : public CoreNodelet {
     NODELET_WARN("the mechanisation begins anew");
     gate_.clear();
     look_ahead_.forgetSteps();
+    wheel_time_.recount();
     if (const std::optional<Correction> correction = engine_->reissue()) {
       tell(correction);
     }
@@ -186,13 +189,36 @@ class FilterNodelet : public CoreNodelet {
                             wheel_input_->problem().c_str());
     }
     if (motion) {
-      jumps_.push(*motion, [this](const WheelMotion& passed) {
-        for (const WheelMotion& wheels : wheel_sessions_.push(passed)) {
-          useWheels(wheels);
-        }
-      });
+      jumps_.push(*motion, [this](const WheelMotion& passed) { sortWheels(wheel_time_.push(passed)); });
       proceed();
     }
+  }
+
+  /// The clock may have been set back before these steps.
+  void learnTime(const ContinuousTime& time) {
+    if (time.steps().size() != wheel_time_.time().steps().size()) {
+      sortWheels(wheel_time_.learn(time));
+      checkpoints_->setTime(time);
+    }
+  }
+
+  void sortWheels(const std::vector<WheelMotion>& samples) {
+    for (const WheelMotion& sample : samples) {
+      for (const WheelMotion& wheels : wheel_sessions_.push(sample)) {
+        useWheels(wheels);
+      }
+    }
+  }
+
+  void publish(const Estimate& estimate, const ErrorCovariance& P) {
+    if (wheel_time_.time().steps().empty()) {
+      estimates_->publish(estimate, P);
+      return;
+    }
+    Estimate by_clock = estimate;
+    by_clock.nav.stamp = wheel_time_.time().toClock(estimate.nav.stamp);
+    by_clock.wheels.stamp = wheel_time_.time().toClock(estimate.wheels.stamp);
+    estimates_->publish(by_clock, P);
   }
 
   void useWheels(const WheelMotion& wheels) {
@@ -219,7 +245,7 @@ class FilterNodelet : public CoreNodelet {
           look_ahead_.processed(estimate.nav.stamp);
           checkpoints_->offer(*engine_);
           handOverIfDue(estimate.nav.stamp);
-          estimates_->publish(estimate, P);
+          publish(estimate, P);
           latency_.published(estimate.nav.stamp, now());
         });
     health_->noteFilter(*engine_);
@@ -314,6 +340,7 @@ class FilterNodelet : public CoreNodelet {
   LookAhead look_ahead_{0.0};
   LatencyMeter latency_;
   JumpFilter<WheelMotion> jumps_;
+  ContinuousWheels wheel_time_;
   WheelSessions wheel_sessions_;
   std::vector<InsSteps::ConstPtr> early_steps_;
   bool started_ = false;

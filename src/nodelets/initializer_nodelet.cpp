@@ -21,10 +21,12 @@
 #include <utility>
 
 #include "slipnav/config/text.h"
+#include "slipnav/ins/imu_clock.h"
 #include "slipnav/math/rotation.h"
 #include "slipnav/navigator/initializer.h"
 #include "slipnav/navigator/resumption.h"
 #include "slipnav/navigator/sample_merger.h"
+#include "slipnav/navigator/stamp_watch.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
 #include "slipnav/ros/internal_messages.h"
@@ -45,8 +47,11 @@ class InitializerNodelet : public CoreNodelet {
     }
     const NavigationSetup setup = config.navigation();
     frames_ = config.frames;
+    fix_topic_ = config.topics.gps_fix;
+    stamps_.emplace(config.topics.imu);
     mount_.emplace(config.imu.mount);
     wheel_input_.emplace(config);
+    clock_.emplace(setup.imu_input.gap_factor);
     screen_.emplace(setup.imu_input);
     merger_.emplace(config.filter.max_wait_s);
     trusted_ = TrustedStamp(patience());
@@ -79,10 +84,11 @@ class InitializerNodelet : public CoreNodelet {
   void retune(const Config& config) override { initializer_->retune(config.navigation().filter); }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
+    stamps_->noteImu(toNanoseconds(message->header.stamp));
     merger_->push(toImuSample(*message, *mount_));
     trusted_.push(merger_->newestImuStamp(), now());
-    takeOver(merger_->newestImuStamp());
-    resume(merger_->newestImuStamp());
+    takeOver(merger_->newestImuTime());
+    resume(merger_->newestImuTime());
     proceed();
   }
 
@@ -118,7 +124,7 @@ class InitializerNodelet : public CoreNodelet {
       return;
     }
     done_ = false;
-    resume(merger_->newestImuStamp());
+    resume(merger_->newestImuTime());
     if (!done_) {
       NODELET_WARN("the filter has lost the estimate: a new start");
       searchAnew();
@@ -142,6 +148,7 @@ class InitializerNodelet : public CoreNodelet {
   template <class Message>
   void onWheels(const boost::shared_ptr<const Message>& message) {
     if (const std::optional<WheelMotion> motion = wheel_input_->take(*message)) {
+      watch(wheel_input_->topic(), motion->stamp);
       merger_->push(*motion);
       proceed();
     }
@@ -149,6 +156,7 @@ class InitializerNodelet : public CoreNodelet {
 
   void onFix(const sensor_msgs::NavSatFix::ConstPtr& message) {
     if (const std::optional<GnssFix> fix = toGnssFix(*message)) {
+      watch(fix_topic_, fix->stamp);
       merger_->push(toPositionFix(*fix));
       proceed();
     }
@@ -158,6 +166,15 @@ class InitializerNodelet : public CoreNodelet {
     if (const std::optional<VelocityFix> fix = toVelocityFix(*message)) {
       merger_->push(*fix);
       proceed();
+    }
+  }
+
+  /// Clocks that do not agree are nobody's to correct, but worth a word.
+  void watch(const std::string& topic, Nanoseconds stamp) {
+    const std::string problem = stamps_->note(topic, stamp);
+    if (!problem.empty()) {
+      stamp_problem_ = problem;
+      NODELET_WARN_THROTTLE(10.0, "%s", problem.c_str());
     }
   }
 
@@ -172,6 +189,12 @@ class InitializerNodelet : public CoreNodelet {
   }
 
   void use(const ImuSample& sample) {
+    clock_->push(sample);
+    while (const std::optional<ImuSample> corrected = clock_->pop()) {
+      judge(*corrected);
+    }
+  }
+  void judge(const ImuSample& sample) {
     ImuVerdict verdict = screen_->check(sample).verdict;
     if (verdict == ImuVerdict::kTimeWentBack) {
       screen_->reset();
@@ -279,6 +302,9 @@ class InitializerNodelet : public CoreNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(done_ ? DiagnosticStatus::OK : DiagnosticStatus::WARN, progress_);
+    if (!stamp_problem_.empty()) {
+      status.mergeSummary(DiagnosticStatus::WARN, stamp_problem_);
+    }
     status.add("restarts of the clock", session_);
     status.add("starts", starts_);
     status.add("samples with a wrong stamp", merger_ ? merger_->leftOut() : 0);
@@ -287,11 +313,15 @@ class InitializerNodelet : public CoreNodelet {
   FrameNames frames_;
   std::optional<ImuMount> mount_;
   std::optional<WheelInput> wheel_input_;
+  std::optional<ImuClock> clock_;
   std::optional<ImuScreen> screen_;
   std::optional<SampleMerger> merger_;
   std::optional<Initializer> initializer_;
   std::optional<Resumption> resumption_;
   TrustedStamp trusted_;
+  std::optional<StampWatch> stamps_;
+  std::string stamp_problem_;
+  std::string fix_topic_;
   StartState::ConstPtr running_;  ///< of the estimate that was there before this nodelet
   std::uint32_t session_ = 0;     ///< restarts of the IMU's clock
   std::uint32_t starts_ = 0;      ///< initial states announced, and searches begun anew

@@ -11,7 +11,9 @@
 #include <boost/make_shared.hpp>
 #include <optional>
 
+#include "slipnav/ins/imu_clock.h"
 #include "slipnav/ins/ins_engine.h"
+#include "slipnav/navigator/continuous_time.h"
 #include "slipnav/navigator/health.h"
 #include "slipnav/navigator/imu_sorter.h"
 #include "slipnav/navigator/jump_filter.h"
@@ -41,6 +43,7 @@ class InsNodelet : public CoreNodelet {
  private:
   void begin(const Config& config) override {
     mount_.emplace(config.imu.mount);
+    clock_.emplace(config.imu.input.gap_factor);
     engine_.emplace(Planet::byName(config.planet), config.imu.input);
     health_.emplace(config.navigation().filter);
   }
@@ -56,19 +59,33 @@ class InsNodelet : public CoreNodelet {
   void advertise(const Config&) override { steps_publisher_ = publisher<InsSteps>(kInsStepsTopic); }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
-    arrivals_.note(toNanoseconds(message->header.stamp), now());
     jumps_.push(toImuSample(*message, *mount_), [this](const ImuSample& passed) {
-      sorter_.push(passed, [this](const ImuSample& sample) { use(sample); });
+      sorter_.push(passed, [this](const ImuSample& sample) { correctStamp(sample); });
     });
     startIfDue();
     mechanise();
   }
 
+  void correctStamp(ImuSample sample) {
+    const std::size_t steps = time_.steps().size();
+    sample.stamp = time_.add(sample.stamp);
+    if (time_.steps().size() > steps) {
+      NODELET_WARN("the clock was set back by %.3f s: the estimate continues", *time_.newestStep_s());
+      health_->noteSetBack(*time_.newestStep_s(), sample.stamp);
+    }
+    clock_->push(sample);
+    while (const std::optional<ImuSample> corrected = clock_->pop()) {
+      use(*corrected);
+    }
+    health_->noteStamps(clock_->faults(), sample.stamp);
+  }
+
   void use(const ImuSample& sample) {
+    arrivals_.note(sample.stamp, now());
     ImuVerdict verdict = engine_->push(sample);
     health_->noteImu(sample.stamp, verdict);
     if (verdict == ImuVerdict::kTimeWentBack) {
-      NODELET_WARN("the clock of the IMU went back: starting anew");
+      NODELET_WARN("the clock of the IMU went back by more than a minute: a new start");
       engine_->reset();
       ++session_;
       verdict = engine_->push(sample);
@@ -149,6 +166,7 @@ class InsNodelet : public CoreNodelet {
     }
     if (!batch->steps.empty()) {
       batch->start = start_count_;
+      fill(time_, *batch);
       unanswered_ = batch;
       send();
     }
@@ -193,6 +211,8 @@ class InsNodelet : public CoreNodelet {
   Arrivals arrivals_;
   JumpFilter<ImuSample> jumps_;
   ImuSorter sorter_;
+  ContinuousTime time_;
+  std::optional<ImuClock> clock_;
   std::optional<InsEngine> engine_;
   std::optional<HealthMonitor> health_;
   StartState::ConstPtr start_;  ///< not yet used

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "slipnav/eval/offline_run.h"
 #include "slipnav/eval/rtklib_pos.h"
@@ -30,23 +31,61 @@ void noteFindings(BagEvaluation& evaluation) {
   evaluation.report.metrics.alarms = evaluation.alarms;
 }
 
+/// Keeps the truth until it is known how the clock was set back.
+class TruthInContinuousTime {
+ public:
+  void add(const GnssFix& fix) {
+    count_.add(fix.stamp);
+    fixes_.emplace_back(count_.all(), fix);
+  }
+  void add(const TruthSample& pose) {
+    count_.add(pose.stamp);
+    poses_.emplace_back(count_.all(), pose);
+  }
+  void giveTo(OfflineRun& run, const SampleMerger& merger) {
+    for (auto& [steps, fix] : fixes_) {
+      fix.stamp += merger.offsetAfter(steps);
+      run.addTruthFix(fix);
+    }
+    for (auto& [steps, pose] : poses_) {
+      pose.stamp += merger.offsetAfter(steps);
+      run.addTruthPose(pose);
+    }
+  }
+
+ private:
+  StepCount count_;
+  std::vector<std::pair<std::size_t, GnssFix>> fixes_;
+  std::vector<std::pair<std::size_t, TruthSample>> poses_;
+};
+
+/// Notes what is wrong with its stamp.
+void push(const Sample& sample, SampleMerger& merger, HealthMonitor& health) {
+  const std::uint64_t left_out = merger.leftOut();
+  const std::uint64_t overtaken = merger.overtaken();
+  const std::size_t steps = merger.time().steps().size();
+  merger.push(sample);
+  if (merger.leftOut() > left_out) {
+    health.note("wrong stamp", merger.newestImuStamp());
+  }
+  if (merger.overtaken() > overtaken) {
+    health.note("IMU samples out of order", merger.newestImuStamp());
+  }
+  if (merger.time().steps().size() > steps) {
+    health.noteSetBack(*merger.time().newestStep_s(), merger.newestImuTime());
+  }
+}
+
 /// Feeds a recording to a run in the order of the stamps.
 void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluation& evaluation) {
   HealthMonitor health(reader.config().navigation().filter);  // of what does not reach the pipeline
   SampleMerger merger(reader.config().filter.max_wait_s);
+  TruthInContinuousTime truth;
   const SampleMerger::Sink pass = [&run](const Sample& sample) {
     std::visit([&run](const auto& s) { run.push(s); }, sample);
   };
   const auto take = [&merger, &pass, &health](const Sample& sample) {
-    const std::uint64_t left_out = merger.leftOut();
-    const std::uint64_t overtaken = merger.overtaken();
-    merger.push(sample);
-    if (merger.leftOut() > left_out) {
-      health.note("wrong stamp", merger.newestImuStamp());
-    }
-    if (merger.overtaken() > overtaken) {
-      health.note("IMU samples out of order", merger.newestImuStamp());
-    }
+    push(sample, merger, health);
     merger.advance(pass);
   };
   BagSink sink;
@@ -55,20 +94,15 @@ void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluati
   sink.fix = [&take](const GnssFix& fix) { take(toPositionFix(fix)); };
   sink.velocity = take;
   sink.truth_start = [&run](const NavigationState& state, bool has_attitude) { run.setTruth(state, has_attitude); };
-  sink.truth_fix = [&run, with_truth](const GnssFix& fix) {
-    if (with_truth) {
-      run.addTruthFix(fix);
-    }
-  };
-  sink.truth_pose = [&run, with_truth](const TruthSample& pose) {
-    if (with_truth) {
-      run.addTruthPose(pose);
-    }
-  };
+  sink.truth_fix = [&truth](const GnssFix& fix) { truth.add(fix); };
+  sink.truth_pose = [&truth](const TruthSample& pose) { truth.add(pose); };
   HealthMonitor problems(reader.config().navigation().filter);
   sink.problem = [&problems](const std::string& problem, Nanoseconds recorded) { problems.note(problem, recorded); };
   reader.read(sink);
   merger.flush(pass);
+  if (with_truth) {
+    truth.giveTo(run, merger);
+  }
   evaluation.alarms = run.pipeline().health().alarms();
   evaluation.alarms.insert(health.alarms().begin(), health.alarms().end());
   evaluation.problems = problems.alarms();

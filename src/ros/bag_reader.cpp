@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "slipnav/navigator/stamp_watch.h"
 #include "slipnav/ros/bag_file.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/extrinsics.h"
@@ -183,9 +184,18 @@ struct BagReader::Parts {
     return std::pair(toNavigationState(odometry, frame, config.imu.mount.position_b()), true);
   }
 
+  static void watch(const BagEntry& entry, const std::string& topic, Nanoseconds stamp, StampWatch& stamps,
+                    const BagSink& sink) {
+    const std::string problem = stamps.note(topic, stamp);
+    if (!problem.empty()) {
+      sink.problem(problem, entry.time);
+    }
+  }
+
   template <class Message>
-  void dispatchWheels(const BagEntry& entry, WheelInput& wheels, const BagSink& sink) {
+  void dispatchWheels(const BagEntry& entry, WheelInput& wheels, StampWatch& stamps, const BagSink& sink) {
     if (const std::optional<WheelMotion> motion = wheels.take(bag.read<Message>(entry))) {
+      watch(entry, wheels.topic(), motion->stamp, stamps, sink);
       sink.wheels(*motion);
     } else if (!wheels.problem().empty()) {
       sink.problem(wheels.problem(), entry.time);
@@ -222,6 +232,7 @@ void BagReader::read(const BagSink& sink) const {
   const TopicNames& topics = parts_->config.topics;
   const ImuMount mount(parts_->config.imu.mount);
   WheelInput wheels(parts_->config);
+  StampWatch stamps(topics.imu);
   bool start_wanted = parts_->config.initialization.source == "truth";
   for (const BagEntry& entry : parts_->bag.entries()) {
     if (entry.time < parts_->begin || entry.time > parts_->end) {
@@ -229,13 +240,16 @@ void BagReader::read(const BagSink& sink) const {
     }
     const std::string topic = bare(parts_->bag.connection(entry).topic);
     if (topic == bare(topics.imu)) {
-      sink.imu(toImuSample(parts_->bag.read<sensor_msgs::Imu>(entry), mount));
+      const ImuSample sample = toImuSample(parts_->bag.read<sensor_msgs::Imu>(entry), mount);
+      stamps.noteImu(sample.stamp);
+      sink.imu(sample);
     } else if (topic == bare(topics.joint_states) && wheels.wantsJointStates()) {
-      parts_->dispatchWheels<sensor_msgs::JointState>(entry, wheels, sink);
+      parts_->dispatchWheels<sensor_msgs::JointState>(entry, wheels, stamps, sink);
     } else if (topic == bare(topics.wheel_odometry) && wheels.wantsOdometry()) {
-      parts_->dispatchWheels<nav_msgs::Odometry>(entry, wheels, sink);
+      parts_->dispatchWheels<nav_msgs::Odometry>(entry, wheels, stamps, sink);
     } else if (topic == bare(topics.gps_fix)) {
       if (const std::optional<GnssFix> fix = toGnssFix(parts_->bag.read<sensor_msgs::NavSatFix>(entry))) {
+        Parts::watch(entry, topics.gps_fix, fix->stamp, stamps, sink);
         sink.fix(*fix);
       }
     } else if (topic == bare(topics.gps_velocity)) {

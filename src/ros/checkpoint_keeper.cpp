@@ -20,6 +20,7 @@ Checkpoint CheckpointKeeper::checkpointOf(const FilterEngine& filter) const {
   Checkpoint checkpoint;
   checkpoint.state = filter.snapshot();
   checkpoint.state.origin = origin_;
+  checkpoint.state.nav.stamp = time_.toClock(checkpoint.state.nav.stamp);
   checkpoint.session = session_;
   checkpoint.slip_hyperparameters = slip_hyperparameters_;
   return checkpoint;

@@ -1,6 +1,8 @@
 #include "slipnav/ros/internal_messages.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "slipnav/ros/conversions.h"
 
@@ -73,6 +75,21 @@ InsStep fromMessage(const InsInterval& message, std::uint32_t epoch) {
   step.omega_ib_b = vectorOf(message.omega_ib_b);
   step.gap_s = message.gap_s;
   return step;
+}
+
+void fill(const ContinuousTime& time, InsSteps& message) {
+  for (const ClockStep& step : time.steps()) {
+    message.clock_step_begin.push_back(toRosTime(step.begin));
+    message.clock_step_offset.push_back(step.offset);
+  }
+}
+
+ContinuousTime timeOf(const InsSteps& message) {
+  std::vector<ClockStep> steps;
+  for (std::size_t i = 0; i < message.clock_step_begin.size(); ++i) {
+    steps.push_back({toNanoseconds(message.clock_step_begin[i]), message.clock_step_offset.at(i)});
+  }
+  return ContinuousTime(std::move(steps));
 }
 
 void fill(const InitialState& initial, StartState& message) {

@@ -19,9 +19,17 @@ WheelMotion WheelInput::atEndOfInterval(WheelMotion wheels) const {
   return wheels;
 }
 
+/// A sample without a time is of no use, and the cause of its absence is not seen otherwise.
+bool WheelInput::isStamped(const std_msgs::Header& header, const std::string& topic) {
+  if (header.stamp.isZero()) {
+    problem_ = "stamps of " + topic + " are zero";
+  }
+  return problem_.empty();
+}
+
 std::optional<WheelMotion> WheelInput::take(const sensor_msgs::JointState& message) {
   problem_.clear();
-  if (!wantsJointStates()) {
+  if (!wantsJointStates() || !isStamped(message.header, joint_topic_)) {
     return std::nullopt;
   }
   const std::optional<WheelSample> sample =
@@ -38,7 +46,7 @@ std::optional<WheelMotion> WheelInput::take(const sensor_msgs::JointState& messa
 
 std::optional<WheelMotion> WheelInput::take(const nav_msgs::Odometry& message) {
   problem_.clear();
-  if (!wantsOdometry() || joints_heard_) {
+  if (!wantsOdometry() || joints_heard_ || !isStamped(message.header, odometry_topic_)) {
     return std::nullopt;
   }
   const double forward_mps = message.twist.twist.linear.x;

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "slipnav/ros/continuous_wheels.h"
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/look_ahead.h"
 #include "slipnav/ros/parameters.h"
@@ -148,6 +149,34 @@ TEST(WheelSessions, LateSamplesOfTheSessionBeforeAreLeftOut) {
   EXPECT_TRUE(sessions.startNext().empty());  // the clock of the others went back already
   EXPECT_TRUE(sessions.push(wheelsAt(101 * kSecond)).empty());
   EXPECT_EQ(sessions.push(wheelsAt(1 * kSecond)).size(), 1U);
+}
+
+TEST(ContinuousWheels, WaitForTheStepOfTheClockToBeTold) {
+  ContinuousWheels wheels;
+  EXPECT_EQ(wheels.push(wheelsAt(100 * kSecond)).size(), 1U);
+  EXPECT_TRUE(wheels.push(wheelsAt(95 * kSecond)).empty());
+  const std::vector<WheelMotion> known = wheels.learn(ContinuousTime({{100 * kSecond + 1, 5 * kSecond + 1}}));
+  ASSERT_EQ(known.size(), 1U);
+  EXPECT_EQ(known.front().stamp, 100 * kSecond + 1);
+  EXPECT_EQ(wheels.push(wheelsAt(96 * kSecond)).front().stamp, 101 * kSecond + 1);
+  EXPECT_EQ(wheels.push(wheelsAt(3 * kSecond)).front().stamp, 3 * kSecond);  // a clock that has begun again
+}
+
+TEST(ContinuousWheels, DoNotWaitForAMechanisationThatHasForgottenIt) {
+  ContinuousWheels wheels;
+  wheels.push(wheelsAt(100 * kSecond));
+  wheels.push(wheelsAt(95 * kSecond));
+  wheels.recount();
+  EXPECT_EQ(wheels.push(wheelsAt(96 * kSecond)).size(), 1U);
+}
+
+TEST(InternalMessages, StepsOfTheClockAreKept) {
+  InsSteps message;
+  fill(ContinuousTime({{1'600'000'000'123'456'789, 5 * kSecond + 1}}), message);
+  const ContinuousTime time = timeOf(message);
+  ASSERT_EQ(time.steps().size(), 1U);
+  EXPECT_EQ(time.steps().front().begin, 1'600'000'000'123'456'789);
+  EXPECT_EQ(time.steps().front().offset, 5 * kSecond + 1);
 }
 
 NavigationState someState() {

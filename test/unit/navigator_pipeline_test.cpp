@@ -77,6 +77,33 @@ TEST_F(PipelineTest, BeginsAnewWhenTheClockGoesBack) {
   EXPECT_TRUE(estimates_.back().v_eb_n == first.back().v_eb_n);
 }
 
+/// Stamps of a busy host: the estimate is that of even ones, and the scatter has a name and a size.
+TEST_F(PipelineTest, StampsThatScatterDoNoHarm) {
+  feed();
+  const NavigationState even = estimates_.back();
+  std::vector<NavigationState> scattered;
+  Pipeline pipeline(Planet::byName("earth"), config().navigation(),
+                    [&scattered](const Estimate& e, const ErrorCovariance&) { scattered.push_back(e.nav); });
+  int number = 0;
+  for (DriveSample sample : drive_.samples) {
+    if (sample.is_imu) {
+      const bool late = ++number > 100 && number % 5 == 0;
+      sample.imu.stamp += late ? fromSeconds(0.018) : 0;
+      pipeline.push(sample.imu);
+    } else {
+      pipeline.push(sample.wheels);
+    }
+  }
+  EXPECT_EQ(pipeline.counts().gaps, 0U);
+  EXPECT_EQ(pipeline.counts().rejected, 0U);
+  EXPECT_NEAR(static_cast<double>(scattered.size()), static_cast<double>(estimates_.size()), 2.0);
+  const Planet earth = Planet::byName("earth");
+  EXPECT_LT(positionDifference(earth, scattered.back().position, even.position).norm(), 0.02);
+  const Alarms& alarms = pipeline.health().alarms();
+  ASSERT_EQ(alarms.size(), 1U);
+  EXPECT_EQ(alarms.begin()->first, "IMU stamps scatter by 9 ms");
+}
+
 TEST_F(PipelineTest, GapsAreCounted) {
   Pipeline pipeline(Planet::byName("earth"), config().navigation(), [](const Estimate&, const ErrorCovariance&) {});
   std::size_t i = 0;

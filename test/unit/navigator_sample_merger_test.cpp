@@ -127,13 +127,31 @@ TEST_F(SampleMergerTest, UntilThenTheImuKeepsItsOrder) {
 }
 
 TEST_F(SampleMergerTest, WhatFollowsARestartComesAfterTheRest) {
-  merger_.push(wheelsAt(5000));
-  merger_.push(imuAt(5000));
+  merger_.push(wheelsAt(95000));
+  merger_.push(imuAt(95000));
   merger_.push(imuAt(10));
   merger_.push(wheelsAt(20));
   merger_.push(imuAt(30));
   merger_.push(wheelsAt(120));
-  EXPECT_EQ(flush(), "w5000 i5000 i10 w20 i30 w120 ");
+  EXPECT_EQ(flush(), "w95000 i95000 i10 w20 i30 w120 ");
+}
+
+/// By a clock that was set back the wheels of before and after are told from each other, and time goes on.
+TEST_F(SampleMergerTest, TimeGoesOnWhenTheClockIsSetBack) {
+  for (Nanoseconds ms = 9000; ms <= 9980; ms += 20) {
+    merger_.push(imuAt(ms));
+  }
+  merger_.push(wheelsAt(9965));
+  merger_.push(wheelsAt(5065));  // by the clock that was set back, and here before the IMU
+  merger_.push(wheelsAt(5165));
+  for (Nanoseconds ms = 5000; ms <= 5180; ms += 20) {
+    merger_.push(imuAt(ms));
+  }
+  EXPECT_EQ(merger_.newestImuStamp(), 5180 * kMillisecond);
+  EXPECT_EQ(merger_.newestImuTime(), 10180 * kMillisecond);
+  const std::string merged = flush();
+  EXPECT_NE(merged.find("i9960 w9965 i9980 i10000 i10020 i10040 i10060 w10065 i10080"), std::string::npos) << merged;
+  EXPECT_NE(merged.find("i10160 w10165 i10180"), std::string::npos) << merged;
 }
 
 TEST_F(SampleMergerTest, ArrivalOrderDoesNotMatter) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "slipnav/config/parameter_visitor.h"
+#include "slipnav/ins/usual_interval.h"
 #include "slipnav/sensors.h"
 
 namespace slipnav {
@@ -78,7 +79,7 @@ class ImuScreen {
   Repeats force_;
   Repeats rate_;
   Nanoseconds newest_stamp_ = 0;
-  double period_s_ = 0.0;  ///< running mean of the regular sample interval
+  UsualInterval usual_;
 };
 
 }  // namespace slipnav

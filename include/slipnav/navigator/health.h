@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slipnav/filter/filter_engine.h"
+#include "slipnav/ins/imu_clock.h"
 #include "slipnav/ins/imu_screen.h"
 
 namespace slipnav {
@@ -27,12 +28,19 @@ class HealthMonitor {
   explicit HealthMonitor(const FilterSetup& setup);
 
   void noteImu(Nanoseconds stamp, ImuVerdict verdict);
+  /// What is wrong with the stamps of the IMU up to `stamp`.
+  void noteStamps(const StampFaults& faults, Nanoseconds stamp);
+  /// The clock was set back by so much.
+  void noteSetBack(double step_s, Nanoseconds stamp);
   /// @param taken whether the filter had use for it
   void noteWheels(Nanoseconds stamp, bool taken);
   /// Looks at rejected measurements, silent wheels and wheels that contradict the others.
   void noteFilter(const FilterEngine& filter);
   /// Anything else that is wrong at `stamp`.
   void note(const std::string& name, Nanoseconds stamp);
+  /// Something that has a size: one alarm, which says the greatest size so far.
+  /// @param name begins the name of the alarm; @param size in `unit`
+  void noteSized(const std::string& name, double size, const std::string& unit, Nanoseconds stamp);
   /// The clock has gone back.
   void restart() { newest_wheels_ = 0; }
 
@@ -45,6 +53,8 @@ class HealthMonitor {
   double max_wheel_interval_s_;
   std::vector<std::string> wheel_names_;
   Nanoseconds newest_wheels_ = 0;
+  StampFaults stamp_faults_;  ///< as noted last
+  std::map<std::string, double> sizes_;
   Alarms alarms_;
 };
 

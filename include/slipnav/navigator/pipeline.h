@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "slipnav/ins/imu_clock.h"
 #include "slipnav/navigator/health.h"
 #include "slipnav/navigator/initializer.h"
 #include "slipnav/navigator/navigator.h"
@@ -46,12 +47,14 @@ class Pipeline {
   const HealthMonitor& health() const { return health_; }
 
  private:
+  void use(const ImuSample& sample);
   void tryToStart();
   void restart();
 
   Planet planet_;
   NavigationSetup setup_;
   FilterEngine::EstimateSink sink_;
+  ImuClock imu_clock_;
   Initializer initializer_;
   Navigator navigator_;
   std::optional<InitialState> initial_;

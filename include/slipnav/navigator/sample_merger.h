@@ -2,9 +2,10 @@
 /// Brings the samples of several sensors into one order by stamp, whatever the order in which they come.
 ///
 /// A sample is let go when the IMU has gone on by the wait since; what comes later than that is out of order, and those
-/// who get it refuse it. IMU samples are put into order by themselves before (ImuSorter). A sensor whose stamps go back
-/// by a second or more has started anew: what follows belongs after everything of all sensors before their own such
-/// step. Single samples with a wrong stamp are left out (JumpFilter).
+/// who get it refuse it. IMU samples are put into order by themselves before (ImuSorter). Where the stamps of a sensor
+/// go back by a second or more, what follows belongs after everything of all sensors before their own such step; unless
+/// the clock has begun again, time goes on (ContinuousTime). Single samples with a wrong stamp are left out
+/// (JumpFilter).
 
 #include <array>
 #include <cstdint>
@@ -13,9 +14,11 @@
 #include <tuple>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/measurement/gnss_fix.h"
+#include "slipnav/navigator/continuous_time.h"
 #include "slipnav/navigator/imu_sorter.h"
 #include "slipnav/navigator/jump_filter.h"
 
@@ -23,7 +26,8 @@ namespace slipnav {
 
 using Sample = std::variant<ImuSample, WheelMotion, PositionFix, VelocityFix>;
 
-/// One queue per sensor; the earliest sample of all goes first.
+/// One queue per sensor; the earliest sample of all goes first. Samples come in stamps of the clock and go in
+/// continuous time.
 class SampleMerger {
  public:
   using Sink = std::function<void(const Sample&)>;
@@ -42,8 +46,16 @@ class SampleMerger {
   /// Lets go everything.
   void flush(const Sink& sink);
 
-  /// Stamp of the newest IMU sample, 0 before the first.
+  /// Stamp of the newest IMU sample by the clock, 0 before the first.
   Nanoseconds newestImuStamp() const { return newest_imu_.stamp; }
+  /// The same in continuous time.
+  Nanoseconds newestImuTime() const { return newest_imu_.stamp + offsetAfter(newest_imu_.session); }
+
+  /// What has to be added to stamps by the clock.
+  /// @param steps how often the clock had gone back before, for whatever reason
+  Nanoseconds offsetAfter(std::size_t steps) const;
+  /// How the clock of the IMU was set back.
+  const ContinuousTime& time() const { return time_; }
 
   /// Samples that were left out for their stamps, of all sensors.
   std::uint64_t leftOut() const;
@@ -73,12 +85,15 @@ class SampleMerger {
   void sort(const Sample& sample) { insert(sample); }
   void insert(const Sample& sample);
   void advance(const Instant& trusted, const Sink& sink);
+  void release(Stream& stream, const Sink& sink);
   Stream* earliest();
   bool isCertain(const Instant& instant, const Instant& trusted) const;
 
   Nanoseconds max_wait_;
   std::tuple<JumpFilter<ImuSample>, JumpFilter<WheelMotion>, JumpFilter<PositionFix>, JumpFilter<VelocityFix>> filters_;
   ImuSorter imu_sorter_;
+  ContinuousTime time_;
+  std::vector<Nanoseconds> offsets_;  ///< by session
   std::array<Stream, std::variant_size_v<Sample>> streams_;
   Instant newest_imu_;
 };

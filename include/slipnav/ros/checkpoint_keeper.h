@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "slipnav/filter/filter_engine.h"
+#include "slipnav/navigator/continuous_time.h"
 #include "slipnav/ros/checkpoint_writer.h"
 
 namespace slipnav {
@@ -18,6 +19,9 @@ class CheckpointKeeper {
 
   /// An estimate has started.
   void start(const Geodetic& origin, std::uint32_t session);
+
+  /// How the filter's time follows from the clock, by which a checkpoint is dated.
+  void setTime(const ContinuousTime& time) { time_ = time; }
 
   /// Last known parameters of the slip model.
   void setSlipHyperparameters(std::vector<double> values) { slip_hyperparameters_ = std::move(values); }
@@ -36,6 +40,7 @@ class CheckpointKeeper {
   CheckpointParams params_;
   std::optional<CheckpointWriter> writer_;
   Geodetic origin_;
+  ContinuousTime time_;
   std::uint32_t session_ = 0;
   std::vector<double> slip_hyperparameters_;
   Nanoseconds last_ = 0;

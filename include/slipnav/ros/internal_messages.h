@@ -5,10 +5,12 @@
 #include <slipnav/ForecastInput.h>
 #include <slipnav/InertialState.h>
 #include <slipnav/InsInterval.h>
+#include <slipnav/InsSteps.h>
 #include <slipnav/StartState.h>
 
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/ins/ins_engine.h"
+#include "slipnav/navigator/continuous_time.h"
 
 namespace slipnav {
 
@@ -18,6 +20,10 @@ NavigationState fromMessage(const InertialState& message);
 InsInterval toMessage(const InsStep& step);
 /// @param epoch of the batch that the interval came in
 InsStep fromMessage(const InsInterval& message, std::uint32_t epoch);
+
+/// How the clock was set back; the rest of the message stays.
+void fill(const ContinuousTime& time, InsSteps& message);
+ContinuousTime timeOf(const InsSteps& message);
 
 /// Fills everything but the counts; `known` is set.
 void fill(const InitialState& initial, StartState& message);

@@ -27,10 +27,14 @@ class WheelInput {
   /// What was wrong with the last message in one line that names its topic, "" when nothing.
   const std::string& problem() const { return problem_; }
 
+  /// The topic that samples are taken from.
+  const std::string& topic() const { return joints_heard_ ? joint_topic_ : odometry_topic_; }
+
   bool wantsJointStates() const { return source_ != "wheel_odometry"; }
   bool wantsOdometry() const { return source_ != "joint_states"; }
 
  private:
+  bool isStamped(const std_msgs::Header& header, const std::string& topic);
   WheelMotion atEndOfInterval(WheelMotion wheels) const;
 
   WheelGeometry geometry_;

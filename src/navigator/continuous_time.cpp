@@ -1,0 +1,53 @@
+#include "slipnav/navigator/continuous_time.h"
+
+#include <algorithm>
+
+#include "slipnav/ins/imu_screen.h"
+
+namespace slipnav {
+
+Nanoseconds ContinuousTime::add(Nanoseconds stamp) {
+  if (newest_ != 0 && stamp <= newest_ - kLongestSetBack) {
+    *this = ContinuousTime();
+  } else if (newest_ != 0 && stamp <= newest_ - kRestartBackstep) {
+    const Nanoseconds before = toContinuous(newest_, steps_.size());
+    const Nanoseconds interval = fromSeconds(usual_.value());
+    steps_.push_back({before + interval / 2, before + interval - stamp});
+    newest_ = stamp;
+    return before + interval;
+  }
+  if (newest_ != 0 && stamp > newest_) {
+    usual_.add(toSeconds(stamp - newest_));
+  }
+  newest_ = std::max(newest_, stamp);
+  return toContinuous(stamp, steps_.size());
+}
+
+Nanoseconds ContinuousTime::toContinuous(Nanoseconds stamp, std::size_t steps) const {
+  const std::size_t known = std::min(steps, steps_.size());
+  return known == 0 ? stamp : stamp + steps_[known - 1].offset;
+}
+
+Nanoseconds ContinuousTime::toClock(Nanoseconds continuous) const {
+  const auto step =
+      std::find_if(steps_.rbegin(), steps_.rend(), [continuous](const ClockStep& s) { return s.begin <= continuous; });
+  return step == steps_.rend() ? continuous : continuous - step->offset;
+}
+
+std::optional<double> ContinuousTime::newestStep_s() const {
+  if (steps_.empty()) {
+    return std::nullopt;
+  }
+  return toSeconds(steps_.back().offset - (steps_.size() > 1 ? steps_[steps_.size() - 2].offset : 0));
+}
+
+void StepCount::add(Nanoseconds stamp) {
+  if (newest_ != 0 && stamp <= newest_ - kRestartBackstep) {
+    ++all_;
+    steps_ = stamp <= newest_ - kLongestSetBack ? 0 : steps_ + 1;
+    newest_ = stamp;
+  }
+  newest_ = std::max(newest_, stamp);
+}
+
+}  // namespace slipnav
