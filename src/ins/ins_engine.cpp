@@ -114,7 +114,8 @@ std::optional<InsStep> InsEngine::step() {
   if (gap_s > max_bridged_gap_s_) {
     interval = steadyTurn(start, interval);
   }
-  const ImuInterval previous = is_first ? ImuInterval{} : slot(next_ - 1).interval;
+  // What the rates did before a gap says nothing about what they did in it.
+  const ImuInterval previous = is_first || gap_s > 0.0 ? ImuInterval{} : slot(next_ - 1).interval;
   if (current.gap_s > kLongestGap_s) {
     current.state = start;
     current.state.stamp = current.end;

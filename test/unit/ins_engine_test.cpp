@@ -247,6 +247,19 @@ TEST(InsEngine, BridgesAGapByTheMeanOfItsEnds) {
   EXPECT_EQ(step.state.stamp, after.stamp);
 }
 
+/// Rates before a gap, taken for those at its beginning, would be extrapolated through all of it.
+TEST(InsEngine, KeepsTheSpeedThroughALongGap) {
+  std::vector<ImuSample> imu = samples(60);
+  imu.back().omega_ib_b = Vector3(0.2, -0.1, 0.05);
+  InsEngine engine = filled(imu);
+  const NavigationState before = drain(engine).back().state;
+  ImuSample after = imu.back();
+  after.stamp += 30 * kSecond;
+  EXPECT_EQ(engine.push(after), ImuVerdict::kAfterGap);
+  const NavigationState state = engine.step()->state;
+  EXPECT_NEAR(state.v_eb_n.norm(), before.v_eb_n.norm(), 0.05);
+}
+
 TEST(InsEngine, InstantaneousSamplesAreAveraged) {
   ImuInputParams params;
   params.sampling = "instantaneous";
