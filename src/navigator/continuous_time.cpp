@@ -5,9 +5,16 @@
 #include "slipnav/ins/imu_screen.h"
 
 namespace slipnav {
+namespace {
+
+bool hasBegunAgain(Nanoseconds stamp, Nanoseconds first, Nanoseconds newest) {
+  return stamp <= newest - kRestartBackstep && (stamp <= newest - kLongestSetBack || stamp <= first + kBeginning);
+}
+
+}  // namespace
 
 Nanoseconds ContinuousTime::add(Nanoseconds stamp) {
-  if (newest_ != 0 && stamp <= newest_ - kLongestSetBack) {
+  if (newest_ != 0 && hasBegunAgain(stamp, first_, newest_)) {
     *this = ContinuousTime();
   } else if (newest_ != 0 && stamp <= newest_ - kRestartBackstep) {
     const Nanoseconds before = toContinuous(newest_, steps_.size());
@@ -16,6 +23,7 @@ Nanoseconds ContinuousTime::add(Nanoseconds stamp) {
     newest_ = stamp;
     return before + interval;
   }
+  first_ = newest_ == 0 ? stamp : first_;
   if (newest_ != 0 && stamp > newest_) {
     usual_.add(toSeconds(stamp - newest_));
   }
@@ -42,11 +50,13 @@ std::optional<double> ContinuousTime::newestStep_s() const {
 }
 
 void StepCount::add(Nanoseconds stamp) {
+  const bool begins = newest_ == 0 || hasBegunAgain(stamp, first_, newest_);
   if (newest_ != 0 && stamp <= newest_ - kRestartBackstep) {
     ++all_;
-    steps_ = stamp <= newest_ - kLongestSetBack ? 0 : steps_ + 1;
+    steps_ = begins ? 0 : steps_ + 1;
     newest_ = stamp;
   }
+  first_ = begins ? stamp : first_;
   newest_ = std::max(newest_, stamp);
 }
 

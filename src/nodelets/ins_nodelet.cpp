@@ -85,7 +85,7 @@ class InsNodelet : public CoreNodelet {
     ImuVerdict verdict = engine_->push(sample);
     health_->noteImu(sample.stamp, verdict);
     if (verdict == ImuVerdict::kTimeWentBack) {
-      NODELET_WARN("the clock of the IMU went back by more than a minute: a new start");
+      NODELET_WARN("the clock of the IMU has begun again: a new start");
       engine_->reset();
       ++session_;
       verdict = engine_->push(sample);

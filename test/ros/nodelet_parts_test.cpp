@@ -153,6 +153,7 @@ TEST(WheelSessions, LateSamplesOfTheSessionBeforeAreLeftOut) {
 
 TEST(ContinuousWheels, WaitForTheStepOfTheClockToBeTold) {
   ContinuousWheels wheels;
+  wheels.push(wheelsAt(50 * kSecond));
   EXPECT_EQ(wheels.push(wheelsAt(100 * kSecond)).size(), 1U);
   EXPECT_TRUE(wheels.push(wheelsAt(95 * kSecond)).empty());
   const std::vector<WheelMotion> known = wheels.learn(ContinuousTime({{100 * kSecond + 1, 5 * kSecond + 1}}));
@@ -164,6 +165,7 @@ TEST(ContinuousWheels, WaitForTheStepOfTheClockToBeTold) {
 
 TEST(ContinuousWheels, DoNotWaitForAMechanisationThatHasForgottenIt) {
   ContinuousWheels wheels;
+  wheels.push(wheelsAt(50 * kSecond));
   wheels.push(wheelsAt(100 * kSecond));
   wheels.push(wheelsAt(95 * kSecond));
   wheels.recount();

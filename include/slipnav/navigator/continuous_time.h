@@ -3,8 +3,8 @@
 ///
 /// A clock that is set back, by a time server or by hand, says nothing about the rover, which drives on. Stamps of all
 /// sensors then go on from the last one before, after one usual interval of the IMU, and what is published is turned
-/// back into what the clock says. Where a clock goes back by more than a minute, a recording has begun again or another
-/// one is played: then nothing is carried over.
+/// back into what the clock says. Where a clock goes back by more than a minute, or to where it has begun, a recording
+/// is played again, or another one: then nothing is carried over.
 
 #include <cstddef>
 #include <optional>
@@ -18,6 +18,8 @@ namespace slipnav {
 
 /// A clock that goes back by more has begun again.
 inline constexpr Nanoseconds kLongestSetBack = 60 * kSecond;
+/// So has one that goes back to this soon after its first stamp.
+inline constexpr Nanoseconds kBeginning = 2 * kSecond;
 
 /// From `begin` on, continuous time is that of the clock and `offset`.
 struct ClockStep {
@@ -48,7 +50,8 @@ class ContinuousTime {
  private:
   std::vector<ClockStep> steps_;
   UsualInterval usual_;
-  Nanoseconds newest_ = 0;  ///< by the clock
+  Nanoseconds first_ = 0;   ///< by the clock, since it has begun
+  Nanoseconds newest_ = 0;  ///< likewise
 };
 
 /// Counts how often the clock of one sensor was set back, as ContinuousTime does for the IMU.
@@ -63,6 +66,7 @@ class StepCount {
   std::size_t all() const { return all_; }
 
  private:
+  Nanoseconds first_ = 0;
   Nanoseconds newest_ = 0;
   std::size_t steps_ = 0;
   std::size_t all_ = 0;
