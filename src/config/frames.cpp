@@ -10,6 +10,8 @@ void FrameNames::visit(ParameterVisitor& v) {
   v.text("gps", gps, "the antenna of gps/fix, for extrinsics: tf");
   v.choice("extrinsics", extrinsics, {"parameters", "tf"},
            "where the sensors are: in imu.mount and gps_mount, or as TF says; with tf, everything waits for it");
+  v.flag("publish_tf", publish_tf,
+         "whether map → odom → base_link is published; false where another node has the transforms of the vehicle");
 }
 
 }  // namespace slipnav

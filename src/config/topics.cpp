@@ -1,5 +1,7 @@
 #include "slipnav/config/topics.h"
 
+#include "slipnav/config/sensor_topics.h"
+
 namespace slipnav {
 
 void TopicNames::visit(ParameterVisitor& v) {
@@ -19,12 +21,18 @@ void TopicNames::visit(ParameterVisitor& v) {
   v.text("slip_forecast", slip_forecast, "out: slipnav/SlipForecast");
   v.text("error_forecast", error_forecast, "out: slipnav/ErrorForecast, bound of the position error and time to stop");
   v.text("stop", stop, "out: slipnav/StopStatus");
-  v.text("stop_cmd", stop_cmd, "out: std_msgs/Float64, seconds until the stop");
+  v.text("stop_cmd", stop_cmd, "out: std_msgs/Float64, seconds until the stop, always finite");
+  v.text("e_stop", e_stop, "out: std_msgs/Bool, emergency stop, as the lock of a command multiplexer");
   v.text("diagnostics", diagnostics, "out: diagnostic_msgs/DiagnosticArray");
   v.text("path", path, "out: nav_msgs/Path, the estimate");
   v.text("truth/path", truth_path, "out: nav_msgs/Path, the truth");
   v.text("wheel_path", wheel_path, "out: nav_msgs/Path, dead reckoning by the wheels alone");
   v.text("markers", markers, "out: visualization_msgs/MarkerArray");
+}
+
+std::vector<std::string> sensorTopics(const TopicNames& topics) {
+  return {topics.imu,          topics.joint_states, topics.wheel_odometry, topics.gps_fix,
+          topics.gps_velocity, topics.truth_fix,    topics.truth_odometry, topics.truth_pose};
 }
 
 }  // namespace slipnav

@@ -173,6 +173,10 @@ std::string previousOf(const std::string& file) { return file + ".1"; }
 void CheckpointParams::visit(ParameterVisitor& v) {
   v.text("file", file,
          "where the state is kept for a restart after a crash; empty: nowhere, and every start is a new one");
+  v.text(
+      "stop_file", stop_file,
+      "where emergency stop and override are kept, which hold until the operator ends them; empty: beside file, or in "
+      "ROS_HOME where there is none; none: nowhere, they end with the process");
   v.number("interval_s", interval_s, {0.1, 3600.0}, "how often it is written, in time of the stamps [s]");
   v.number("max_age_s", max_age_s, {0.1, 1e6}, "an older one is not used [s]");
   v.number("speed_mps", speed_mps, {0.0, 100.0}, "1σ, on each axis, of the mean velocity while nobody watched [m/s]");
@@ -265,7 +269,8 @@ InitialState resumeFrom(const Checkpoint& checkpoint, Nanoseconds now, const Err
                         const CheckpointParams& params) {
   const double unwatched_s = toSeconds(now - checkpoint.state.nav.stamp);
   if (unwatched_s < 0.0 || unwatched_s > params.max_age_s) {
-    refuse("is " + formatNumber(unwatched_s) + " s old; checkpoint.max_age_s is " + formatNumber(params.max_age_s));
+    refuse("is " + formatNumber(std::round(10.0 * unwatched_s) / 10.0) + " s old; checkpoint.max_age_s is " +
+           formatNumber(params.max_age_s));
   }
   InitialState state = checkpoint.state;
   state.nav.stamp = now;

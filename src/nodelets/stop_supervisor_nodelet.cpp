@@ -1,6 +1,6 @@
 /// slipnav/StopSupervisor: stands between the operator's commands and the rover.
 ///
-/// In: nav_state, slip, error_forecast, forecast_progress, cmd_vel_in. Out: cmd_vel, stop, stop_cmd.
+/// In: nav_state, slip, error_forecast, forecast_progress, cmd_vel_in. Out: cmd_vel, stop, stop_cmd, e_stop.
 /// Services, in its own namespace: stop_now, override, emergency_stop.
 
 #include <geometry_msgs/Twist.h>
@@ -8,12 +8,12 @@
 #include <slipnav/NavState.h>
 #include <slipnav/Slip.h>
 #include <slipnav/StopStatus.h>
-#include <std_msgs/Float64.h>
 #include <std_msgs/Header.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <optional>
 #include <stdexcept>
@@ -24,7 +24,12 @@
 #include "slipnav/ros/forecast_gate.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/silence_watch.h"
+#include "slipnav/ros/stop_latch_keeper.h"
 #include "slipnav/ros/stop_messages.h"
+#include "slipnav/ros/stop_outputs.h"
+#include "slipnav/ros/topic_graph.h"
+#include "slipnav/stop/obedience_watch.h"
+#include "slipnav/stop/stop_reach.h"
 
 namespace slipnav {
 
@@ -35,37 +40,46 @@ class StopSupervisorNodelet : public CoreNodelet {
  private:
   void begin(const Config& config) override {
     frames_ = config.frames;
+    topics_ = config.topics;
     supervisor_.emplace(config.stop);
     gate_ = ForecastGate(patience());
     observer_.emplace(config.stationary.wheel_speed_mps);
     estimates_watch_.emplace(config.stop.estimate_timeout_s);
     commands_watch_.emplace(config.stop.command_timeout_s);
+    keeper_.emplace(config.checkpoint, getName());
+    supervisor_->restore(keeper_->load());
   }
+
+  /// An emergency stop that was latched must not wait for transforms.
+  bool needsExtrinsics() const override { return false; }
 
   void subscribe(const Config& config) override {
     listen<NavState>(config.topics.nav_state, &StopSupervisorNodelet::onNavState);
     listen<Slip>(config.topics.slip, &StopSupervisorNodelet::onSlip);
     listen<ErrorForecast>(config.topics.error_forecast, &StopSupervisorNodelet::onForecast);
     listen<std_msgs::Header>(kForecastProgressTopic, &StopSupervisorNodelet::onForecastProgress);
-    stepBetweenIfWanted(config);
-    offerTuning("StopSupervisor");
-  }
-
-  /// Once there, it stays there: commands must not run dry when the mode becomes off.
-  void stepBetweenIfWanted(const Config& config) {
-    if (config.stop.stopMode() == StopMode::kOff || stands_between_) {
-      return;
-    }
-    stands_between_ = true;
-    command_publisher_ = publisher<geometry_msgs::Twist>(config.topics.cmd_vel);
-    listen<geometry_msgs::Twist>(config.topics.cmd_vel_in, &StopSupervisorNodelet::onCommand);
     serve("stop_now", &StopSupervisorNodelet::onStopNow);
     serve("override", &StopSupervisorNodelet::onOverride);
     serve("emergency_stop", &StopSupervisorNodelet::onEmergencyStop);
+    if (config.stop.stopMode() != StopMode::kOff || supervisor_->latch().emergency_stop) {
+      stepBetween();
+    }
+    offerTuning("StopSupervisor");
+  }
+
+  /// Between operator and rover. Once there, it stays there: commands must not run dry when the mode becomes off.
+  void stepBetween() {
+    if (outputs_.hasCommands()) {
+      return;
+    }
+    outputs_.advertiseCommands(node(), topics_);
+    listen<geometry_msgs::Twist>(topics_.cmd_vel_in, &StopSupervisorNodelet::onCommand);
   }
 
   void retune(const Config& config) override {
-    stepBetweenIfWanted(config);
+    if (config.stop.stopMode() != StopMode::kOff) {
+      stepBetween();
+    }
     observer_->setWheelSpeedAtRest(config.stationary.wheel_speed_mps);
     estimates_watch_->setLimit(config.stop.estimate_timeout_s);
     commands_watch_->setLimit(config.stop.command_timeout_s);
@@ -74,8 +88,15 @@ class StopSupervisorNodelet : public CoreNodelet {
   }
 
   void advertise(const Config& config) override {
-    countdown_publisher_ = publisher<std_msgs::Float64>(config.topics.stop_cmd);
+    outputs_.advertise(node(), config.topics);
     status_publisher_ = publisher<StopStatus>(config.topics.stop);
+    if (supervisor_->latch().emergency_stop) {
+      NODELET_WARN("emergency stop, as before the restart: until the operator ends it by the service emergency_stop");
+      enforceEmergencyStop();
+    }
+    if (supervisor_->latch().overridden) {
+      NODELET_WARN("overridden, as before the restart: until the operator ends it by the service override");
+    }
   }
 
   static SilenceWatch::Now clocks() { return {ros::Time::now().toSec(), now()}; }
@@ -104,6 +125,7 @@ class StopSupervisorNodelet : public CoreNodelet {
         now(),
         [this](const RoverObservation& observation) {
           supervisor_->observe(observation);
+          obedience_.observe(supervisor_->told_mps(), observation);
           report();
         },
         [this](const StopForecast& forecast) {
@@ -122,56 +144,97 @@ class StopSupervisorNodelet : public CoreNodelet {
       ++refused_commands_;
       NODELET_WARN_THROTTLE(1.0, "a command that is not finite is refused: the rover is told to stop");
     }
-    give(supervisor_->command(in));
-  }
-
-  void give(const VelocityCommand& command) {
-    command_publisher_.publish(boost::make_shared<geometry_msgs::Twist>(toTwist(command)));
+    outputs_.command(supervisor_->command(in));
   }
 
   void onStopNow(const std_srvs::TriggerRequest&, std_srvs::TriggerResponse& response) {
-    const std::string refusal = supervisor_->stopNow();
+    const std::string limit = whyNoStop(supervisor_->mode(), outputs_.listeners());
+    const bool unheard = supervisor_->mode() == StopMode::kActive && !limit.empty();
+    const std::string refusal = unheard ? limit : supervisor_->stopNow();
     if (!refusal.empty()) {
       throw std::runtime_error("no stop: " + refusal);
     }
-    response.message = "stopping";
+    response.message = limit.empty() ? "stopping" : "stop advised: " + limit;
     report();
   }
 
   void onOverride(const std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
-    supervisor_->setOverride(request.data != 0);
-    response.message = request.data != 0 ? "commands pass, no stops" : "stops again";
+    const bool wanted = request.data != 0;
+    const std::string loss = keeper_->save({supervisor_->latch().emergency_stop, wanted});
+    supervisor_->setOverride(wanted);
+    response.message = withLoss(wanted ? "commands pass, no stops" : "stops again", loss);
     report();
   }
 
   void onEmergencyStop(const std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
-    supervisor_->setEmergencyStop(request.data != 0);
-    if (request.data != 0) {
-      give({});  // at once, not with the operator's next command
+    const bool wanted = request.data != 0;
+    supervisor_->setEmergencyStop(wanted);  // before the disk is waited for
+    if (wanted) {
+      stepBetween();
+      enforceEmergencyStop();
+    } else {
+      outputs_.lock(false);
     }
-    response.message = request.data != 0 ? "every command becomes zero" : "commands pass";
+    const std::string loss = keeper_->save(supervisor_->latch());
+    reach_ = wanted ? whyNoEmergencyStop(supervisor_->mode(), outputs_.listeners()) : "";
     report();
+    announce();
+    if (!reach_.empty()) {
+      throw std::runtime_error(
+          withLoss("no stop: " + reach_ + "; cmd_vel and stop_cmd say zero, e_stop is locked", loss));
+    }
+    response.message = withLoss(
+        wanted ? "every command becomes zero: " + outputs_.listenersInWords() : "commands pass, by a ramp", loss);
+  }
+
+  static std::string withLoss(const std::string& answer, const std::string& loss) {
+    return loss.empty() ? answer : answer + "; not kept over a restart: " + loss;
+  }
+
+  /// At once, and again and again: whoever begins to listen hears it, and a base does not go by an older command.
+  void enforceEmergencyStop() {
+    outputs_.command(supervisor_->command({}));
+    outputs_.lock(true);
+    report();
+    announce();
   }
 
   void onTick() override {
     proceed();
     watchEstimates();
+    if (supervisor_->latch().emergency_stop) {
+      enforceEmergencyStop();
+    }
   }
 
   void watchEstimates() {
+    passTime();
     if (estimates_lost_ || !estimates_watch_->isSilent(clocks())) {
       return;
     }
     estimates_lost_ = true;
-    NODELET_WARN("no estimates: commands pass, and there are no stops");
+    NODELET_WARN("no estimates: commands pass, and no stop begins");
     supervisor_->loseEstimates();
     report();
+  }
+
+  /// Without estimates, as much as both clocks say.
+  void passTime() {
+    const SilenceWatch::Now time = clocks();
+    const double elapsed_s = std::min(time.ros_s - last_time_.ros_s, time.real_s - last_time_.real_s);
+    last_time_ = time;
+    if (estimates_lost_ || !estimates_watch_->hasHeard()) {
+      supervisor_->passTime(fromSeconds(std::clamp(elapsed_s, 0.0, kLongestTick_s)));
+    }
   }
 
   void report() {
     const SupervisorStatus& status = supervisor_->status();
     const auto message = boost::make_shared<StopStatus>();
     fill(status, supervisor_->mode(), frames_, *message);
+    if (status.emergency_stop && !reach_.empty()) {
+      message->reason += ", but " + reach_;
+    }
     status_publisher_.publish(message);
     if (status.state == reported_) {
       return;
@@ -185,37 +248,58 @@ class StopSupervisorNodelet : public CoreNodelet {
 
   /// For those who only want to know the seconds.
   void announce() {
-    const auto message = boost::make_shared<std_msgs::Float64>();
-    const SupervisorStatus& status = supervisor_->status();
-    message->data = status.state >= StopState::kStopping ? 0.0 : status.time_left_s;
-    countdown_publisher_.publish(message);
+    if (const std::optional<double> seconds = supervisor_->countdown_s()) {
+      outputs_.countDown(*seconds);
+    }
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) override {
     using diagnostic_msgs::DiagnosticStatus;
-    if (!supervisor_) {
-      diagnostics.summary(DiagnosticStatus::WARN, "waiting for extrinsics");
-      return;
-    }
     const SupervisorStatus& status = supervisor_->status();
+    const std::string danger = dangerOf(status);
     const std::string problem = problemOf(status);
-    diagnostics.summary(problem.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                        problem.empty() ? status.reason : problem);
+    diagnostics.summary(!danger.empty()    ? DiagnosticStatus::ERROR
+                        : !problem.empty() ? DiagnosticStatus::WARN
+                                           : DiagnosticStatus::OK,
+                        !danger.empty()    ? danger
+                        : !problem.empty() ? problem
+                                           : status.reason);
     diagnostics.add("state", name(status.state));
     diagnostics.add("stops", status.stops);
     diagnostics.add("stops given up", status.refusals);
     diagnostics.add("refused commands", refused_commands_);
+    diagnostics.add("emergency stop is kept in", keeper_->file());
   }
 
-  std::string problemOf(const SupervisorStatus& status) const {
-    if (supervisor_->mode() == StopMode::kOff) {
-      return "";
+  /// What takes an emergency stop its meaning, now or after a restart.
+  std::string dangerOf(const SupervisorStatus& status) {
+    reach_ = status.emergency_stop ? whyNoEmergencyStop(supervisor_->mode(), outputs_.listeners()) : "";
+    if (!reach_.empty()) {
+      return "emergency stop without effect: " + reach_;
     }
+    if (obedience_.isIgnored()) {
+      return "the rover drives on although it is told to stop";
+    }
+    if (!keeper_->problem().empty()) {
+      return "emergency stop and override are not kept: " + keeper_->problem();
+    }
+    return publishersOf(topics_.nav_state) > 1 ? "more than one node publishes nav_state: " + estimators() : "";
+  }
+
+  std::string estimators() { return joined(endsOf(node().resolveName(topics_.nav_state)).publishers); }
+
+  std::string problemOf(const SupervisorStatus& status) const {
     if (status.emergency_stop) {
       return "emergency stop";
     }
+    if (supervisor_->mode() == StopMode::kOff) {
+      return "";
+    }
     if (estimates_lost_ || !estimates_watch_->hasHeard()) {
       return "no estimates";
+    }
+    if (supervisor_->mode() == StopMode::kActive && !outputs_.hasListenersToCommands()) {
+      return "nobody listens to cmd_vel";
     }
     if (commands_watch_->isSilent(clocks())) {
       return "cmd_vel_in is silent";
@@ -237,19 +321,24 @@ class StopSupervisorNodelet : public CoreNodelet {
     return "holding";
   }
 
+  static constexpr double kLongestTick_s = 1.0;  ///< between two ticks; more is a clock that was set
+
   FrameNames frames_;
+  TopicNames topics_;
   std::optional<StopSupervisor> supervisor_;
+  std::optional<StopLatchKeeper> keeper_;
   std::optional<RoverObserver> observer_;
+  ObedienceWatch obedience_;
   ForecastGate gate_;
   std::optional<SilenceWatch> estimates_watch_;
   std::optional<SilenceWatch> commands_watch_;
-  bool stands_between_ = false;  ///< operator and rover
+  SilenceWatch::Now last_time_ = clocks();
   bool estimates_lost_ = false;
+  std::string reach_;  ///< why an emergency stop that is set does not reach the rover
   std::uint64_t refused_commands_ = 0;
   StopState reported_ = StopState::kDriving;
-  SharedPublisher<geometry_msgs::Twist> command_publisher_;
+  StopOutputs outputs_;
   SharedPublisher<StopStatus> status_publisher_;
-  SharedPublisher<std_msgs::Float64> countdown_publisher_;
 };
 
 }  // namespace slipnav

@@ -5,6 +5,7 @@
 #include "slipnav/ros/extrinsics.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/parameters.h"
+#include "slipnav/ros/topic_graph.h"
 #include "slipnav/ros/tuning_messages.h"
 
 namespace slipnav {
@@ -22,7 +23,7 @@ void CoreNodelet::onInit() {
   try {
     tree_ = node_.resolveName(private_node_.param<std::string>("config", "slipnav"));
     config_ = configFromParameters(node_, tree_);
-    if (config_.frames.extrinsicsFromTf()) {
+    if (config_.frames.extrinsicsFromTf() && needsExtrinsics()) {
       tf_buffer_ = std::make_unique<tf2_ros::Buffer>();
       tf_listener_ = std::make_unique<tf2_ros::TransformListener>(*tf_buffer_);
     } else {
@@ -40,6 +41,7 @@ void CoreNodelet::onInit() {
       if (tuning_) {
         status.add("changed while running", tuning_->changes());
       }
+      diagnoseClock(status);
     });
     advertise(config_);
     ticks_ = thread_->repeat(tickInterval_s(), [this] { tick(); });
@@ -73,6 +75,22 @@ void CoreNodelet::stop() {
 bool CoreNodelet::isConnected() const {
   return std::all_of(subscribers_.begin(), subscribers_.end(),
                      [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; });
+}
+
+std::size_t CoreNodelet::publishersOf(const std::string& topic) const {
+  const std::string name = node_.resolveName(topic);
+  std::size_t publishers = 0;
+  for (const ros::Subscriber& subscriber : subscribers_) {
+    publishers += subscriber.getTopic() == name ? subscriber.getNumPublishers() : 0;
+  }
+  return publishers;
+}
+
+void CoreNodelet::diagnoseClock(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const bool still = clock_watch_.standsStill(ros::Time::isSimTime(), ros::Time::now().toSec());
+  if (still && endsOf("/clock").publishers.empty()) {
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, "use_sim_time is set, and nobody publishes /clock");
+  }
 }
 
 void CoreNodelet::guarded(const std::function<void()>& work) {
@@ -131,6 +149,7 @@ void CoreNodelet::onTuning(const dynamic_reconfigure::Config::ConstPtr& message)
 
 void CoreNodelet::handle(const std::function<void()>& work) {
   guarded([this, &work] {
+    clock_watch_.heard();
     if (begun_) {
       work();
       return;

@@ -6,8 +6,10 @@ void StopParams::visit(ParameterVisitor& v) {
   v.choice("mode", mode, {"off", "advise", "active"},
            "off: nothing is decided; advise: commands pass untouched, stops are recommended; active: the rover is "
            "stopped");
-  v.number("deceleration_mps2", deceleration_mps2, {0.01, 100.0},
-           "limit of the deceleration of the commanded speed when the supervisor stops the rover [m/s²]");
+  v.number(
+      "deceleration_mps2", deceleration_mps2, {0.01, 100.0},
+      "limit of the deceleration of the commanded speed when the supervisor stops the rover, and of the acceleration "
+      "when it lets it go on [m/s²]");
   v.number("angular_deceleration_radps2", angular_deceleration_radps2, {0.01, 100.0},
            "the same for the commanded turn [rad/s²]");
   v.number("max_stop_s", max_stop_s, {0.1, 600.0},
@@ -17,6 +19,9 @@ void StopParams::visit(ParameterVisitor& v) {
            "a hold ends when the 1σ of the velocity, mean over the axes, is below this [m/s]");
   v.integer("min_zero_updates", min_zero_updates, {1, 100000}, "and so many zero updates were accepted");
   v.number("countdown_s", countdown_s, {0.0, 3600.0}, "a stop is announced so long before it begins [s]");
+  v.number("no_stop_due_s", no_stop_due_s, {1.0, 3600.0},
+           "what stop_cmd says when no stop is due, and at most: whoever counts down to a stop takes infinity for the "
+           "end of counting [s]");
   v.number("min_drive_s", min_drive_s, {0.0, 3600.0}, "shortest drive between two stops [s]");
   v.number("forecast_timeout_s", forecast_timeout_s, {0.5, 3600.0},
            "without a new forecast for so long while driving, stops become periodic; longer than the window where a "
@@ -27,7 +32,7 @@ void StopParams::visit(ParameterVisitor& v) {
   v.number("retry_after_slide_s", retry_after_slide_s, {0.0, 3600.0},
            "no stop for so long after one that ended in sliding, or never in standstill [s]");
   v.number("estimate_timeout_s", estimate_timeout_s, {0.1, 3600.0},
-           "without an estimate for so long, commands pass and no stop is made [s]");
+           "without an estimate for so long, commands pass and no stop begins [s]");
   v.number("command_timeout_s", command_timeout_s, {0.1, 3600.0},
            "diagnostics warn when cmd_vel_in has been silent for so long [s]");
 }

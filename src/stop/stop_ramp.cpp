@@ -13,7 +13,7 @@ void StopRamp::begin(Nanoseconds stamp, double linear_speed_mps) {
 VelocityCommand StopRamp::shorten(const VelocityCommand& in, Nanoseconds stamp) {
   const double linear_mps = in.linear_mps.norm();
   const double angular_radps = in.angular_radps.norm();
-  const double elapsed_s = toSeconds(stamp - stamp_);
+  const double elapsed_s = std::max(0.0, toSeconds(stamp - stamp_));
   stamp_ = stamp;
   if (in.isZero()) {
     factor_ = 0.0;

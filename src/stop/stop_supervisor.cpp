@@ -36,6 +36,9 @@ void StopSupervisor::retune(const StopParams& params) {
   if (isStopping()) {
     release("");
   }
+  if (!status_.emergency_stop) {
+    release_ramp_.end();
+  }
   advance();
 }
 
@@ -50,6 +53,9 @@ void StopSupervisor::restart(Nanoseconds stamp) {
   given_up_.clear();
   driving_since_ = stamp;
   not_before_ = stamp + fromSeconds(params_.min_drive_s);
+  if (before.state >= StopState::kStopping && mode_ == StopMode::kActive) {
+    release_ramp_.begin(stamp);
+  }
 }
 
 void StopSupervisor::observe(const RoverObservation& observation) {
@@ -60,7 +66,9 @@ void StopSupervisor::observe(const RoverObservation& observation) {
     return;
   }
   has_estimates_ = true;
+  requested_ -= std::max<Nanoseconds>(0, clock_ - observation.stamp);  // what has passed without estimates counts
   newest_ = observation;
+  clock_ = observation.stamp;
   status_.stamp = observation.stamp;
   standstill_.observe(observation);
   advance();
@@ -68,7 +76,18 @@ void StopSupervisor::observe(const RoverObservation& observation) {
 
 void StopSupervisor::loseEstimates() {
   has_estimates_ = false;
-  if (isStopping()) {
+  if (isStopping() && (status_.state == StopState::kHolding || mode_ != StopMode::kActive)) {
+    release("");
+  }
+  advance();
+}
+
+void StopSupervisor::passTime(Nanoseconds elapsed) {
+  if (has_estimates_ || elapsed <= 0) {
+    return;
+  }
+  clock_ += elapsed;
+  if (isStopping() && toSeconds(clock_ - requested_) >= params_.max_stop_s) {
     release("");
   }
   advance();
@@ -87,13 +106,20 @@ VelocityCommand StopSupervisor::command(const VelocityCommand& in) {
   if (status_.emergency_stop || !in.isFinite()) {
     last_out_ = {};
   } else if (mode_ != StopMode::kActive || !isStopping()) {
-    last_out_ = in;
+    last_out_ = commandWhileDriving(in);
   } else if (status_.state == StopState::kHolding) {
-    last_out_ = ramp_.shorten({}, newest_.stamp);
+    last_out_ = ramp_.shorten({}, clock_);
   } else {
-    last_out_ = ramp_.shorten(in, newest_.stamp);
+    last_out_ = ramp_.shorten(in, clock_);
   }
   return last_out_;
+}
+
+VelocityCommand StopSupervisor::commandWhileDriving(const VelocityCommand& in) {
+  if (status_.overridden) {
+    release_ramp_.end();
+  }
+  return release_ramp_.shorten(in, clock_, params_.deceleration_mps2, params_.angular_deceleration_radps2);
 }
 
 std::string StopSupervisor::stopNow() {
@@ -117,11 +143,36 @@ void StopSupervisor::setOverride(bool overridden) {
 }
 
 void StopSupervisor::setEmergencyStop(bool stop) {
+  if (status_.emergency_stop && !stop) {
+    release_ramp_.begin(clock_);
+  }
   status_.emergency_stop = stop;
   if (stop && isStopping()) {
     release("");
   }
   advance();
+}
+
+void StopSupervisor::restore(const StopLatch& latch) {
+  setOverride(latch.overridden);
+  setEmergencyStop(latch.emergency_stop);
+}
+
+std::optional<double> StopSupervisor::countdown_s() const {
+  if (status_.emergency_stop || isStopping()) {
+    return 0.0;
+  }
+  if (mode_ == StopMode::kOff || !has_estimates_) {
+    return std::nullopt;
+  }
+  return std::min(status_.time_left_s, params_.no_stop_due_s);
+}
+
+std::optional<double> StopSupervisor::told_mps() const {
+  if (status_.emergency_stop) {
+    return 0.0;
+  }
+  return mode_ == StopMode::kActive && isStopping() ? std::optional<double>(last_out_.linear_mps.norm()) : std::nullopt;
 }
 
 bool StopSupervisor::hasConverged() const {
@@ -233,7 +284,7 @@ void StopSupervisor::considerHold() {
     }
   } else if (standstill_.unacceptedRest_s() >= params_.slide_after_s) {
     giveUp("the rover slides: its wheels stand, but it does not");
-  } else if (mode_ == StopMode::kActive && toSeconds(newest_.stamp - requested_) >= params_.max_stop_s) {
+  } else if (mode_ == StopMode::kActive && toSeconds(clock_ - requested_) >= params_.max_stop_s) {
     giveUp("the rover does not come to rest within " + seconds(params_.max_stop_s));
   }
 }
@@ -255,6 +306,9 @@ void StopSupervisor::considerRelease() {
 }
 
 void StopSupervisor::release(const std::string& reason) {
+  if (mode_ == StopMode::kActive && clock_ > requested_) {
+    release_ramp_.begin(clock_);
+  }
   status_.state = StopState::kDriving;
   status_.time_left_s = kNever_s;
   status_.reason = reason;

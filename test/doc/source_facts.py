@@ -10,7 +10,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 FILES_OF_USERS = {"my_rover.yaml", "RTKLIB.pos", "report.html", "tables.md", "default.yaml"}
 
 # Nodelets whose publishers live in a class of their own.
-PUBLISHERS = {"estimate_publisher.cpp": "Filter", "sensor_publisher.cpp": "Simulator"}
+PUBLISHERS = {"estimate_publisher.cpp": "Filter", "sensor_publisher.cpp": "Simulator",
+              "stop_outputs.cpp": "StopSupervisor"}
 # diagnostic_updater publishes it for every nodelet.
 DIAGNOSTICS = ("diagnostics", "diagnostic_msgs/DiagnosticArray")
 PLACEHOLDER = r"%[-.\d]*l?[a-zA-Z]"
@@ -60,7 +61,7 @@ def nodelet_sources():
 def topic_names():
     """Default topic by what the code calls it: a field of TopicNames or a constant of internal_topics.h."""
     keys = dict(re.findall(r'v\.text\("([^"]+)", (\w+)', read("src/config/topics.cpp")))
-    names = {f"config.topics.{field}": key for key, field in keys.items()}
+    names = {f"{block}.{field}": key for key, field in keys.items() for block in ("config.topics", "topics", "topics_")}
     names.update(re.findall(r'\* (k\w+Topic) = "([^"]+)"', read("include/slipnav/ros/internal_topics.h")))
     return names
 
@@ -148,11 +149,14 @@ def diagnostic_texts():
     """Summaries of diagnostics, warnings and errors of the nodelets, names of alarms, progress of the start."""
     texts = set()
     for _, text in nodelet_sources():
-        for statement in re.findall(r"(?:status|diagnostics)\.summary\((.*?)\);", text, flags=re.S):
+        for statement in re.findall(r"(?:status|diagnostics)\.(?:summary|mergeSummary)\((.*?)\);", text, flags=re.S):
             texts.update(literals(statement))
         for statement in re.findall(r"NODELET_(?:WARN|ERROR)\w*\((.*?)\);", text, flags=re.S):
             texts.update(literals(statement)[:1])
-    texts.update(literals(body_of("problemOf", read("src/nodelets/stop_supervisor_nodelet.cpp"))))
+    for function in ("problemOf", "dangerOf"):
+        texts.update(literals(body_of(function, read("src/nodelets/stop_supervisor_nodelet.cpp"))))
+    for function in ("whyNoEmergencyStop", "whyNoStop"):
+        texts.update(literals(body_of(function, read("src/stop/stop_reach.cpp"))))
     health = read("src/navigator/health.cpp")
     texts.update(text for statement in re.findall(r"note\((.*?)\);", health) for text in literals(statement))
     texts.update(literals(body_of("complaintOf", read("src/ins/imu_screen.cpp"))))

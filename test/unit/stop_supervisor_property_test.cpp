@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <random>
+#include <string>
 
+#include "slipnav/stop/stop_reach.h"
 #include "slipnav/stop/stop_supervisor.h"
 
 namespace slipnav::test {
@@ -16,16 +19,21 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongestInterval_s = 0.2;
 constexpr int kSteps = 20000;
+/// Of what is commanded: the longest that a command may come back by a ramp.
+constexpr double kFastest = 3.5;  // norm of three components of up to 2
+constexpr std::array<const char*, 3> kModes = {"off", "advise", "active"};
 
 /// Draws what happens next, and checks what comes of it.
 class RandomDrive {
  public:
-  RandomDrive(const std::string& mode, unsigned seed) : params_(paramsOf(mode)), supervisor_(params_), random_(seed) {}
+  RandomDrive(const std::string& mode, unsigned seed)
+      : first_mode_(mode), params_(paramsOf(mode)), supervisor_(params_), random_(seed) {}
 
   void run() {
     for (int i = 0; i < kSteps && !::testing::Test::HasFailure(); ++i) {
       happen();
       checkDuration();
+      checkCountdown();
       checkCommand(drawCommand());
     }
   }
@@ -53,28 +61,69 @@ class RandomDrive {
       supervisor_.setForecast({stamp_, chance(0.1) ? kNan : chance(0.3) ? kInfinity : uniform(-5.0, 60.0)});
     }
     if (chance(0.002)) {
-      supervisor_.setOverride(chance(0.3));
+      operator_.overridden = chance(0.3);
+      supervisor_.setOverride(operator_.overridden);
     }
     if (chance(0.002)) {
-      supervisor_.setEmergencyStop(chance(0.3));
+      operator_.emergency_stop = chance(0.3);
+      supervisor_.setEmergencyStop(operator_.emergency_stop);
     }
     if (chance(0.002)) {
       supervisor_.stopNow();
     }
     if (chance(0.001)) {
       supervisor_.loseEstimates();
+      lost_ = true;
+    }
+    if (lost_ && chance(0.7)) {
+      passTimeWithoutEstimates();
     }
     if (chance(0.0005)) {
       stamp_ -= fromSeconds(uniform(0.0, 100.0));
     }
+    if (chance(0.001)) {
+      restart();
+    }
+    if (chance(0.002)) {
+      retune();
+    }
+  }
+
+  /// The process dies and another one begins, which knows only what was latched.
+  void restart() {
+    const StopLatch kept = supervisor_.latch();
+    supervisor_ = StopSupervisor(params_);
+    supervisor_.restore(kept);
+    newest_ = 0;
+    lost_ = true;
+  }
+
+  void retune() {
+    params_.mode = chance(0.5) ? first_mode_ : kModes.at(std::uniform_int_distribution<std::size_t>(0, 2)(random_));
+    params_.deceleration_mps2 = uniform(0.5, 1.0);
+    params_.min_drive_s = uniform(1.0, 10.0);
+    supervisor_.retune(params_);
+  }
+
+  void passTimeWithoutEstimates() {
+    const double elapsed_s = uniform(0.0, kLongestInterval_s);
+    supervisor_.passTime(fromSeconds(elapsed_s));
+    clock_s_ += elapsed_s;
   }
 
   void observe() {
+    if (lost_ && chance(0.95)) {
+      return;  // they are lost for a while
+    }
+    lost_ = false;
     stamp_ += fromSeconds(uniform(0.001, kLongestInterval_s));
     const bool standing = motion_ == 1 && !chance(0.02);
     const bool wheels_at_rest = motion_ > 0;
     supervisor_.observe({stamp_, motion_ == 0 ? uniform(-1.0, 1.0) : 0.0, chance(0.02) ? kNan : uniform(0.0, 0.02),
                          standing, chance(0.5), wheels_at_rest});
+    const Nanoseconds stamp = supervisor_.status().stamp;
+    clock_s_ += newest_ > 0 && stamp > newest_ ? toSeconds(stamp - newest_) : 0.0;
+    newest_ = stamp;
   }
 
   VelocityCommand drawCommand() {
@@ -94,7 +143,9 @@ class RandomDrive {
   void checkCommand(const VelocityCommand& in) {
     const VelocityCommand out = supervisor_.command(in);
     const SupervisorStatus& status = supervisor_.status();
-    if (!in.isFinite() || in.isZero() || status.emergency_stop) {
+    ASSERT_EQ(status.emergency_stop, operator_.emergency_stop) << "only the operator sets and releases it";
+    ASSERT_EQ(status.overridden, operator_.overridden);
+    if (!in.isFinite() || in.isZero() || operator_.emergency_stop) {
       ASSERT_TRUE(out.isZero());
       return;
     }
@@ -104,9 +155,22 @@ class RandomDrive {
     }
     const bool stops = params_.mode == "active" && status.state >= StopState::kStopping;
     const bool untouched = in.linear_mps == out.linear_mps && in.angular_radps == out.angular_radps;
-    ASSERT_TRUE(stops || untouched);
+    const bool coming_back = clock_s_ - stopped_s_ <= kFastest / 0.5 + kLongestInterval_s;
+    ASSERT_TRUE(stops || coming_back || untouched);
     ASSERT_TRUE(!status.overridden || untouched);
     ASSERT_TRUE(!stops || status.state != StopState::kHolding || out.isZero());
+  }
+
+  /// Who counts down to a stop is never told to wait for ever, and never that there is none while there is one.
+  void checkCountdown() {
+    const std::optional<double> countdown_s = supervisor_.countdown_s();
+    const SupervisorStatus& status = supervisor_.status();
+    const bool stopped = status.emergency_stop || status.state >= StopState::kStopping;
+    ASSERT_TRUE(!stopped || countdown_s == 0.0);
+    ASSERT_TRUE(!countdown_s || (*countdown_s >= 0.0 && *countdown_s <= params_.no_stop_due_s));
+    if (stopped) {
+      stopped_s_ = clock_s_;
+    }
   }
 
   static void expectShortened(double in, double out) {
@@ -118,30 +182,36 @@ class RandomDrive {
   void checkDuration() {
     const SupervisorStatus& status = supervisor_.status();
     has_held_ = has_held_ || status.state == StopState::kHolding;
-    if (params_.mode != "active" || status.state < StopState::kStopping || status.stamp < stop_since_.value_or(0)) {
-      stop_since_.reset();
-      hold_since_.reset();
+    if (params_.mode != "active" || status.state < StopState::kStopping) {
+      stop_since_s_.reset();
+      hold_since_s_.reset();
       return;
     }
-    stop_since_ = stop_since_.value_or(status.stamp);
+    stop_since_s_ = stop_since_s_.value_or(clock_s_);
     if (status.state == StopState::kHolding) {
-      hold_since_ = hold_since_.value_or(status.stamp);
+      hold_since_s_ = hold_since_s_.value_or(clock_s_);
     }
     const double slack_s = 2.0 * kLongestInterval_s;
-    ASSERT_LE(toSeconds(status.stamp - *stop_since_), params_.max_stop_s + params_.max_hold_s + slack_s);
+    ASSERT_LE(clock_s_ - *stop_since_s_, params_.max_stop_s + params_.max_hold_s + slack_s);
     if (status.state == StopState::kHolding) {
-      ASSERT_LE(toSeconds(status.stamp - *hold_since_), params_.max_hold_s + slack_s);
+      ASSERT_LE(clock_s_ - *hold_since_s_, params_.max_hold_s + slack_s);
     }
   }
 
+  std::string first_mode_;
   StopParams params_;
   StopSupervisor supervisor_;
   std::mt19937 random_;
+  StopLatch operator_;  ///< what the operator has said last
   Nanoseconds stamp_ = fromSeconds(1000.0);
-  int motion_ = 0;  ///< 0 driving, 1 standing, 2 sliding on standing wheels
+  Nanoseconds newest_ = 0;  ///< estimate that was taken
+  double clock_s_ = 0.0;    ///< time that has passed, with estimates and without
+  double stopped_s_ = 0.0;  ///< when it was the last time that the rover had to stand
+  bool lost_ = false;       ///< there are no estimates
+  int motion_ = 0;          ///< 0 driving, 1 standing, 2 sliding on standing wheels
   VelocityCommand command_;
-  std::optional<Nanoseconds> stop_since_;
-  std::optional<Nanoseconds> hold_since_;
+  std::optional<double> stop_since_s_;
+  std::optional<double> hold_since_s_;
   bool has_held_ = false;
 };
 
@@ -152,11 +222,24 @@ TEST_P(StopSupervisorPromises, HoldWhateverComes) {
     SCOPED_TRACE(seed);
     RandomDrive drive(GetParam(), seed);
     drive.run();
-    EXPECT_EQ(drive.hasHeld(), std::string(GetParam()) != "off");
+    EXPECT_TRUE(drive.hasHeld());
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllModes, StopSupervisorPromises, ::testing::Values("off", "advise", "active"));
+INSTANTIATE_TEST_SUITE_P(AllModes, StopSupervisorPromises, ::testing::ValuesIn(kModes));
+
+/// An emergency stop counts as one when somebody who has to obey hears it, and never else.
+TEST(StopReach, EveryModeWithEveryListener) {
+  for (const StopMode mode : {StopMode::kOff, StopMode::kAdvise, StopMode::kActive}) {
+    for (const std::size_t commands : {0U, 1U, 2U}) {
+      for (const std::size_t lock : {0U, 1U, 2U}) {
+        const bool obeyed = lock > 0 || (mode == StopMode::kActive && commands > 0);
+        EXPECT_EQ(whyNoEmergencyStop(mode, {commands, lock}).empty(), obeyed);
+        EXPECT_EQ(whyNoStop(mode, {commands, lock}).empty(), mode == StopMode::kActive && commands > 0);
+      }
+    }
+  }
+}
 
 }  // namespace
 }  // namespace slipnav::test

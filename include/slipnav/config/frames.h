@@ -15,6 +15,7 @@ struct FrameNames {
   std::string imu = "imu_link";
   std::string gps = "gps";
   std::string extrinsics = "parameters";
+  bool publish_tf = true;
   void visit(ParameterVisitor& v);
 
   bool extrinsicsFromTf() const { return extrinsics == "tf"; }

@@ -26,6 +26,7 @@ struct TopicNames {
   std::string error_forecast = "error_forecast";
   std::string stop = "stop";
   std::string stop_cmd = "stop_cmd";
+  std::string e_stop = "e_stop";
   std::string diagnostics = "diagnostics";
   std::string path = "path";
   std::string truth_path = "truth/path";

@@ -18,6 +18,7 @@ namespace slipnav {
 /// Block `checkpoint`.
 struct CheckpointParams {
   std::string file;
+  std::string stop_file;
   double interval_s = 2.0;
   double max_age_s = 600.0;
   double speed_mps = 0.8;

@@ -19,6 +19,7 @@
 
 #include "slipnav/config/config.h"
 #include "slipnav/ros/callback_thread.h"
+#include "slipnav/ros/clock_watch.h"
 #include "slipnav/ros/patience.h"
 #include "slipnav/ros/shared_publisher.h"
 #include "slipnav/ros/tuning_server.h"
@@ -41,6 +42,8 @@ class CoreNodelet : public nodelet::Nodelet {
   /// Builds what the configuration describes; called once, before any message is handled and, where the extrinsics have
   /// to be waited for, after the two below. May throw std::invalid_argument.
   virtual void begin(const Config& config) = 0;
+  /// Whether begin() has to wait for the extrinsics, where they come from TF.
+  virtual bool needsExtrinsics() const { return true; }
   /// Calls listen() and serve().
   virtual void subscribe(const Config& config) = 0;
   /// Calls publisher(); the topic by which others know that this nodelet is ready comes last.
@@ -78,6 +81,8 @@ class CoreNodelet : public nodelet::Nodelet {
 
   /// Whether each topic that is listened to has a publisher.
   bool isConnected() const;
+  /// How many publishers a topic that is listened to has.
+  std::size_t publishersOf(const std::string& topic) const;
 
   template <class Message>
   SharedPublisher<Message> publisher(const std::string& topic, bool latch = false) {
@@ -119,6 +124,7 @@ class CoreNodelet : public nodelet::Nodelet {
   void onTuning(const dynamic_reconfigure::Config::ConstPtr& message);
   void tick();
   void waitForExtrinsics();
+  void diagnoseClock(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   std::shared_ptr<CallbackThread> thread_;
   ros::NodeHandle node_;
@@ -134,6 +140,7 @@ class CoreNodelet : public nodelet::Nodelet {
   std::unique_ptr<TuningServer> tuning_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> services_;
+  ClockWatch clock_watch_;
   RepeatedWork ticks_;
   RepeatedWork diagnostics_;
 };

@@ -20,6 +20,7 @@ struct StopParams {
   double converged_speed_std_mps = 0.002;
   int min_zero_updates = 8;
   double countdown_s = 10.0;
+  double no_stop_due_s = 60.0;
   double min_drive_s = 5.0;
   double forecast_timeout_s = 5.0;
   double fallback_interval_s = 12.0;

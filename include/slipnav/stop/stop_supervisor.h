@@ -9,8 +9,10 @@
 #include <optional>
 #include <string>
 
+#include "slipnav/stop/release_ramp.h"
 #include "slipnav/stop/rover_observation.h"
 #include "slipnav/stop/standstill.h"
+#include "slipnav/stop/stop_latch.h"
 #include "slipnav/stop/stop_params.h"
 #include "slipnav/stop/stop_ramp.h"
 #include "slipnav/stop/velocity_command.h"
@@ -51,8 +53,10 @@ class StopSupervisor {
 
   /// Each estimate, in order. One whose stamp goes back by a second or more begins anew; other old ones are ignored.
   void observe(const RoverObservation& observation);
-  /// No estimate comes any more: nothing can be decided until one does.
+  /// No estimate comes any more: no stop begins until one does. One that is under way goes on within its limit.
   void loseEstimates();
+  /// So much time has passed without estimates; ignored while there are some.
+  void passTime(Nanoseconds elapsed);
   /// Takes the place of the one before. Ignored when its time is not a number, or when it is ahead of the estimates or
   /// older than the one before: then it belongs to another session.
   void setForecast(const StopForecast& forecast);
@@ -67,6 +71,17 @@ class StopSupervisor {
   void setOverride(bool overridden);
   /// While set, every command becomes zero at once, in every mode.
   void setEmergencyStop(bool stop);
+  /// What the operator had said before a restart.
+  void restore(const StopLatch& latch);
+  /// What has to survive the next one.
+  StopLatch latch() const { return {status_.emergency_stop, status_.overridden}; }
+
+  /// For those who count down to a stop [s]: 0 while the rover stops, stands, or must not drive; at most
+  /// `no_stop_due_s`; nothing when nothing is known. Never infinite, which ends their counting.
+  std::optional<double> countdown_s() const;
+
+  /// The speed that the rover is told while it is being stopped [m/s]; nothing otherwise.
+  std::optional<double> told_mps() const;
 
   const SupervisorStatus& status() const { return status_; }
   StopMode mode() const { return mode_; }
@@ -92,6 +107,7 @@ class StopSupervisor {
   void requestStop(const char* reason);
   void considerHold();
   void considerRelease();
+  VelocityCommand commandWhileDriving(const VelocityCommand& in);
   void release(const std::string& reason);
   void giveUp(const std::string& reason);
 
@@ -103,6 +119,8 @@ class StopSupervisor {
   Standstill standstill_;
   std::optional<StopForecast> forecast_;
   StopRamp ramp_;
+  ReleaseRamp release_ramp_;
+  Nanoseconds clock_ = 0;  ///< stamp of the newest estimate, and what has passed since without any
   VelocityCommand last_out_;
   Nanoseconds driving_since_ = 0;  ///< the last standstill that converged, or the begin
   Nanoseconds not_before_ = 0;     ///< earliest next stop
