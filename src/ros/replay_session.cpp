@@ -4,10 +4,14 @@
 #include <rosgraph_msgs/Clock.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <variant>
 
+#include "slipnav/config/parameter_list.h"
+#include "slipnav/config/sensor_topics.h"
 #include "slipnav/config/text.h"
 #include "slipnav/ros/bag_file.h"
 #include "slipnav/ros/child_process.h"
@@ -62,7 +66,32 @@ std::set<std::string> recordedTopics(const std::string& path) {
   return topics;
 }
 
-/// @param wanted full names of the topics that somebody listens to
+/// What a recording must not say while the nodelets run: what they publish themselves, commands, time and transforms of
+/// moving frames. As full names.
+std::set<std::string> outputTopics(const TopicNames& topics) {
+  std::set<std::string> outputs = topicsWith(0);
+  const std::vector<std::string> sensors = sensorTopics(topics);
+  for (const ParameterInfo& topic : listParameters(topics)) {
+    const std::string& name = std::get<std::string>(topic.value);
+    if (std::find(sensors.begin(), sensors.end(), name) == sensors.end()) {
+      outputs.insert(ros::names::resolve(name));
+    }
+  }
+  outputs.insert({"/clock", "/tf"});
+  outputs.erase("/tf_static");  // where the sensors are
+  return outputs;
+}
+
+/// What somebody listens to, less the outputs, as full names.
+std::set<std::string> wantedTopics(const TopicNames& topics) {
+  const std::set<std::string> heard = topicsWith(1);
+  const std::set<std::string> outputs = outputTopics(topics);
+  std::set<std::string> wanted;
+  std::set_difference(heard.begin(), heard.end(), outputs.begin(), outputs.end(), std::inserter(wanted, wanted.end()));
+  return wanted;
+}
+
+/// @param wanted full names of the topics to be played
 std::vector<std::string> playCommand(const ReplayOptions& options, const std::set<std::string>& wanted) {
   std::vector<std::string> command = {"rosbag",
                                       "play",
@@ -87,7 +116,7 @@ std::vector<std::string> playCommand(const ReplayOptions& options, const std::se
 
 }  // namespace
 
-ReplaySession::ReplaySession(const TopicNames& topics, Outputs outputs) : outputs_(outputs) {
+ReplaySession::ReplaySession(const TopicNames& topics, Outputs outputs) : topics_(topics), outputs_(outputs) {
   const auto listen = [this](const std::string& topic, auto handler) {
     subscribers_.push_back(node_.subscribe(topic, 0, handler, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   };
@@ -138,7 +167,7 @@ void ReplaySession::play(const ReplayOptions& options, Nanoseconds last_stamp) {
   const boost::function<void(const rosgraph_msgs::Clock::ConstPtr&)> note =
       [&clock](const rosgraph_msgs::Clock::ConstPtr& message) { clock = message->clock; };
   const ros::Subscriber listener = node_.subscribe<rosgraph_msgs::Clock>("/clock", 1, note);
-  ChildProcess player(playCommand(options, topicsWith(1)));
+  ChildProcess player(playCommand(options, wantedTopics(topics_)));
   const auto has_come = [this, &player, last_stamp] {
     if (player.poll()) {
       throw std::runtime_error("rosbag play has failed");

@@ -1,11 +1,16 @@
 /// What the nodelets make of a recording, played fast, against the offline run: the same numbers to the last bit.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/JointState.h>
 #include <signal.h>
+#include <slipnav/NavState.h>
+#include <slipnav/Slip.h>
+#include <slipnav/StartState.h>
 
 #include <limits>
 #include <map>
@@ -13,6 +18,7 @@
 #include <thread>
 
 #include "ros/replay_fixture.h"
+#include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/node_process.h"
 
 namespace slipnav {
@@ -87,6 +93,31 @@ TEST_F(ReplayEquality, WithSamplesThatCannotBeUsed) {
   for (const EstimateSample& estimate : offline.report.estimates) {
     ASSERT_TRUE(estimate.position_enu_m.allFinite());
   }
+}
+
+/// As `rosbag record` of a live drive has them: outputs of another run, and what the operator commanded.
+TEST_F(ReplayEquality, WhatTheNodeletsSaidWhenItWasRecordedIsNotPlayed) {
+  test::TemporaryBag recorded;
+  test::editBag(bag_->path(), recorded.path(), [](const rosbag::MessageInstance& instance, rosbag::Bag& target) {
+    target.write(instance.getTopic(), instance.getTime(), instance);
+    if (const auto imu = instance.instantiate<sensor_msgs::Imu>()) {
+      const auto put = [&](const std::string& topic, auto message) {
+        message.header.stamp = imu->header.stamp;
+        target.write("/" + topic, instance.getTime(), message);
+      };
+      put(config_->topics.odometry, nav_msgs::Odometry());
+      put(config_->topics.nav_state, NavState());
+      put(config_->topics.slip, Slip());
+      target.write("/" + config_->topics.cmd_vel_in, instance.getTime(), geometry_msgs::Twist());
+      target.write(std::string("/") + kInitialStateTopic, instance.getTime(), StartState());
+    }
+  });
+  int commands = 0;
+  const boost::function<void(const geometry_msgs::Twist::ConstPtr&)> count =
+      [&commands](const geometry_msgs::Twist::ConstPtr&) { ++commands; };
+  const ros::Subscriber base = ros::NodeHandle().subscribe<geometry_msgs::Twist>(config_->topics.cmd_vel, 10, count);
+  replayAndCompare(recorded.path(), 20.0);
+  EXPECT_EQ(commands, 0) << "nothing moves";
 }
 
 TEST_F(ReplayEquality, WithWheelsSilentForAWhile) {

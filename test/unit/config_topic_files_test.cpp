@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "slipnav/config/config.h"
+#include "slipnav/config/sensor_topics.h"
 #include "slipnav/config/yaml_writer.h"
 
 namespace slipnav {
@@ -32,8 +33,9 @@ std::set<std::string> knownTopics() {
   return topics;
 }
 
-TEST(TopicFiles, TheListForRecordingNamesTopicsThatThereAre) {
-  std::istringstream lines(contentOf("config/record_topics.txt"));
+/// Lines that are no comments.
+std::set<std::string> listedIn(const std::string& name) {
+  std::istringstream lines(contentOf(name));
   std::set<std::string> listed;
   for (std::string line; std::getline(lines, line);) {
     if (!line.empty() && line[0] != '#') {
@@ -41,9 +43,22 @@ TEST(TopicFiles, TheListForRecordingNamesTopicsThatThereAre) {
       listed.insert(line);
     }
   }
+  return listed;
+}
+
+TEST(TopicFiles, TheListForRecordingNamesTopicsThatThereAre) {
+  const std::set<std::string> listed = listedIn("config/record_topics.txt");
   for (const char* needed : {"imu/data", "joint_states", "wheel_odometry", "gps/fix", "truth/fix", "odometry"}) {
     EXPECT_EQ(listed.count(needed), 1U) << needed;
   }
+}
+
+TEST(TopicFiles, TheListForPlayingNamesTheSensorsAndNothingElse) {
+  std::set<std::string> sensors = {"/tf_static"};
+  for (const std::string& topic : sensorTopics(TopicNames())) {
+    sensors.insert(topic);
+  }
+  EXPECT_EQ(listedIn("config/sensor_topics.txt"), sensors);
 }
 
 TEST(TopicFiles, ThePlotLayoutNamesTopicsThatThereAre) {

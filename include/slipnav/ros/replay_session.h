@@ -32,7 +32,8 @@ class ReplaySession {
   /// Waits until all nodelets are there and connected. Throws std::runtime_error that says what is missing.
   void waitForNodelets();
 
-  /// Plays with rosbag play, with its clock, all topics that somebody listens to, until the estimate of `last_stamp`
+  /// Plays with rosbag play, with its clock, all topics that somebody listens to, less those that the nodelets publish
+  /// themselves, commands and moving transforms, until the estimate of `last_stamp`
   /// has come: the player is not let go before, as its queues would go with it. Nobody misses a message: playing starts
   /// when everybody is connected, and queues hold whatever comes. Where nothing comes for a minute, neither an estimate
   /// nor the clock, that is the end as well. Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
@@ -48,6 +49,7 @@ class ReplaySession {
   }
 
   ros::NodeHandle node_;
+  TopicNames topics_;
   Outputs outputs_;
   EstimateRecorder recorder_;
   OdometryLog odometry_;
