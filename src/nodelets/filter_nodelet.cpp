@@ -183,10 +183,11 @@ class FilterNodelet : public CoreNodelet {
   void onWheels(const boost::shared_ptr<const Message>& message) {
     ++wheel_messages_;
     const std::optional<WheelMotion> motion = wheel_input_->take(*message);
-    if (!wheel_input_->problem().empty()) {
+    wheel_problem_ = wheel_input_->problem();
+    if (!wheel_problem_.empty()) {
       ++rejected_;
       NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s left out: %s", message->header.stamp.toSec(),
-                            wheel_input_->problem().c_str());
+                            wheel_problem_.c_str());
     }
     if (motion) {
       jumps_.push(*motion, [this](const WheelMotion& passed) { sortWheels(wheel_time_.push(passed)); });
@@ -295,14 +296,18 @@ class FilterNodelet : public CoreNodelet {
     checkpoints_->setSlipHyperparameters({message->variance, message->length_scale_s, message->noise_variance});
   }
 
-  void setState(const SetState::Request& request, SetState::Response&) {
+  void setState(const SetState::Request& request, SetState::Response& response) {
     if (!started_) {
       throw std::invalid_argument("there is no estimate yet");
     }
     takeCorrection(engine_->place(toPlacement(request, estimates_->frame(), engine_->state(), lever_imu_to_base_b_)));
+    response.message = "the estimate is put there";
   }
 
-  void saveCheckpoint(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response&) { checkpoints_->save(*engine_); }
+  void saveCheckpoint(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    checkpoints_->save(*engine_);
+    response.message = "written";
+  }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
@@ -312,6 +317,9 @@ class FilterNodelet : public CoreNodelet {
                    : !has_steps_         ? "waiting for the mechanisation"
                    : wheel_messages_ > 0 ? "running"
                                          : "no wheel samples");
+    if (!wheel_problem_.empty()) {
+      status.mergeSummary(DiagnosticStatus::WARN, "wheel message left out: " + wheel_problem_);
+    }
     status.add("wheel messages", wheel_messages_);
     status.add("rejected wheel messages", rejected_);
     status.add("wheel messages with a wrong stamp", jumps_.leftOut());
@@ -353,6 +361,7 @@ class FilterNodelet : public CoreNodelet {
   Nanoseconds handed_over_ = 0;
   std::uint64_t wheel_messages_ = 0;
   std::uint64_t rejected_ = 0;
+  std::string wheel_problem_;  ///< of the newest wheel message
   SharedPublisher<StartState> hand_over_publisher_;
   SharedPublisher<std_msgs::UInt32> request_publisher_;
   SharedPublisher<FilterCorrection> correction_publisher_;

@@ -139,7 +139,8 @@ class InitializerNodelet : public CoreNodelet {
     try {
       const InitialState initial = resumption_->resume(stamp);
       done_ = true;
-      announce(initial, "resumed " + formatNumber(resumption_->unwatched()) + " s after the last state known");
+      const double unwatched_s = std::round(10.0 * resumption_->unwatched()) / 10.0;
+      announce(initial, "resumed " + formatNumber(unwatched_s) + " s after the last state known");
     } catch (const std::invalid_argument& error) {
       NODELET_WARN("a new start: %s", error.what());
     }
@@ -258,14 +259,20 @@ class InitializerNodelet : public CoreNodelet {
     publishStart(initial, message, how);
   }
 
-  void publishStart(const InitialState& initial, const StartState::ConstPtr& message, const std::string& how) {
-    start_publisher_.publish(message);
+  void sendMapToOdom(const ros::Time& stamp) {
     geometry_msgs::TransformStamped map_to_odom;
-    map_to_odom.header.stamp = message->state.stamp;
+    map_to_odom.header.stamp = stamp;
     map_to_odom.header.frame_id = frames_.map;
     map_to_odom.child_frame_id = frames_.odom;
     map_to_odom.transform.rotation.w = 1.0;
     tf_.sendTransform(map_to_odom);
+  }
+
+  void publishStart(const InitialState& initial, const StartState::ConstPtr& message, const std::string& how) {
+    start_publisher_.publish(message);
+    if (frames_.publish_tf) {
+      sendMapToOdom(message->state.stamp);
+    }
     reportEnd(initial, how);
   }
 

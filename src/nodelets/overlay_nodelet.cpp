@@ -10,9 +10,11 @@
 #include <sensor_msgs/NavSatFix.h>
 #include <slipnav/Initialization.h>
 #include <slipnav/Slip.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
 #include <optional>
@@ -31,17 +33,23 @@ namespace {
 /// A start with the same origin, at most so long before the newest estimate [s], goes on with the same drive. After a
 /// clock that has gone back it is a new one.
 constexpr double kSameDrive_s = 5.0;
+/// A transform of somebody else counts as published for so long [s] of real time.
+constexpr double kForeignTransform_s = 5.0;
 
 }  // namespace
 
 class OverlayNodelet : public CoreNodelet {
  public:
-  ~OverlayNodelet() override { stop(); }
+  ~OverlayNodelet() override {
+    transforms_.shutdown();
+    stop();
+  }
 
  private:
   void begin(const Config& config) override {
     params_ = config.overlay;
     map_ = config.frames.map;
+    base_ = config.frames.base;
     planet_.emplace(Planet::byName(config.planet));
     mount_.emplace(config.imu.mount);
     wheel_input_.emplace(config);
@@ -64,6 +72,27 @@ class OverlayNodelet : public CoreNodelet {
                                &OverlayNodelet::onTruthPose<nav_msgs::Odometry, TruthSource::kOdometry>);
     listen<geometry_msgs::PoseStamped>(config.topics.truth_pose,
                                        &OverlayNodelet::onTruthPose<geometry_msgs::PoseStamped, TruthSource::kPose>);
+    if (config.frames.publish_tf) {
+      const boost::function<void(const TransformEvent&)> watch = [this](const TransformEvent& event) {
+        watchTransforms(event);
+      };
+      transforms_ = node().subscribe<tf2_msgs::TFMessage>("/tf", kQueueSize, watch);
+    }
+  }
+
+  using TransformEvent = ros::MessageEvent<tf2_msgs::TFMessage const>;
+
+  /// Where the vehicle is, two nodes must not say.
+  void watchTransforms(const TransformEvent& event) {
+    if (event.getPublisherName() == ros::this_node::getName()) {
+      return;
+    }
+    const auto& transforms = event.getConstMessage()->transforms;
+    if (std::any_of(transforms.begin(), transforms.end(),
+                    [this](const auto& transform) { return transform.child_frame_id == base_; })) {
+      foreign_publisher_ = event.getPublisherName();
+      foreign_transform_s_ = now();
+    }
   }
 
   void advertise(const Config& config) override {
@@ -169,6 +198,10 @@ class OverlayNodelet : public CoreNodelet {
     using diagnostic_msgs::DiagnosticStatus;
     const bool showing = picture_ && picture_->newest();
     status.summary(DiagnosticStatus::OK, showing ? "drawing" : "waiting for the estimate");
+    if (!foreign_publisher_.empty() && now() - foreign_transform_s_ < kForeignTransform_s) {
+      status.summary(DiagnosticStatus::ERROR,
+                     "another node publishes the transform of " + base_ + ": " + foreign_publisher_);
+    }
     if (picture_) {
       status.add("points of the path", picture_->track().points().size());
       status.add("points of the truth", picture_->truth().points().size());
@@ -179,6 +212,10 @@ class OverlayNodelet : public CoreNodelet {
 
   OverlayParams params_;
   std::string map_;
+  std::string base_;
+  ros::Subscriber transforms_;
+  std::string foreign_publisher_;  ///< of a transform that is this package's
+  double foreign_transform_s_ = 0.0;
   std::optional<Planet> planet_;
   std::optional<ImuMount> mount_;
   std::optional<WheelInput> wheel_input_;

@@ -55,7 +55,17 @@ class SimulatorNodelet : public CoreNodelet {
  private:
   enum class Waiting { kForNodelets, kForTime, kForCommand, kForEstimates, kForNothing };
 
+  /// Without a simulator there is nothing to wait for: the process ends, and the launch with it.
   void begin(const Config& config) override {
+    try {
+      build(config);
+    } catch (const std::exception&) {
+      ros::requestShutdown();
+      throw;
+    }
+  }
+
+  void build(const Config& config) {
     config_ = config;
     geometry_.emplace(config.wheelGeometry());
     options_.emplace(privateNode());

@@ -1,6 +1,7 @@
 #include "slipnav/overlay/drive_picture.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "slipnav/ins/imu_screen.h"
@@ -11,6 +12,14 @@ namespace {
 /// Way shorter than this is not counted, so that a standing rover's tremor adds nothing.
 constexpr double kDistanceStep_m = 0.05;
 constexpr double kSigmas = 3.0;
+/// A step that is longer by so much than the speed explains is no way driven: the estimate was put elsewhere.
+constexpr double kPlacement_m = 0.5;
+
+bool isPlacement(const EstimateSample& before, const EstimateSample& now) {
+  const double speed_mps = std::max(std::abs(before.speed_mps), std::abs(now.speed_mps));
+  const double driven_m = speed_mps * toSeconds(now.stamp - before.stamp);
+  return (now.position_enu_m - before.position_enu_m).norm() > driven_m + kPlacement_m;
+}
 
 /// Dead reckoning in the plane knows no height; it takes that of the estimate.
 TrackPoint pointOf(const PlanarSample& pose, double height_m) {
@@ -76,6 +85,9 @@ void DrivePicture::add(const EstimateSample& estimate) {
   if (!newest_) {
     distance_mark_enu_m_ = estimate.position_enu_m;
     wheel_path_.start(planarPose(estimate));
+  }
+  if (newest_ && isPlacement(*newest_, estimate)) {
+    distance_mark_enu_m_ = estimate.position_enu_m;
   }
   const double step_m = (estimate.position_enu_m - distance_mark_enu_m_).norm();
   if (step_m >= kDistanceStep_m) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "slipnav/math/rotation.h"
 
@@ -12,6 +13,7 @@ constexpr double kUnknownFixStdHorizontal_m = 5.0;
 constexpr double kUnknownFixStdVertical_m = 10.0;
 constexpr double kUnknownVelocityStdHorizontal_mps = 0.1;
 constexpr double kUnknownVelocityStdVertical_mps = 0.2;
+constexpr double kFullTurn_deg = 360.0;
 
 template <class Message>
 Vector3 toVector(const Message& message) {
@@ -171,6 +173,9 @@ Placement toPlacement(const SetStateRequest& request, const LocalFrame& map, con
   placement.position_std_m = request.position_std_m;
   Vector3 euler = eulerFrom_q_b_to_n(present.q_b_to_n);
   if (request.has_heading != 0) {
+    if (!(std::abs(request.heading_deg) <= kFullTurn_deg)) {
+      throw std::invalid_argument("heading_deg must be -360 to 360");
+    }
     placement.heading_rad = euler.z() = degToRad(request.heading_deg);
     placement.heading_std_rad = degToRad(request.heading_std_deg);
   }

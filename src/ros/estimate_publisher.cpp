@@ -35,7 +35,9 @@ void EstimatePublisher::publish(const Estimate& estimate, const ErrorCovariance&
   const auto odometry = boost::make_shared<nav_msgs::Odometry>();
   fill(output, config_.frames, *odometry);
   odometry_.publish(odometry);
-  tf_.sendTransform(toTransform(output, config_.frames));
+  if (config_.frames.publish_tf) {
+    tf_.sendTransform(toTransform(output, config_.frames));
+  }
 }
 
 void EstimatePublisher::publishForecastInput(const Estimate& estimate, const ErrorCovariance& P) {

@@ -104,7 +104,7 @@ void drawStopAhead(const Course& course, const ErrorForecast& forecast, const Ov
   const std::vector<FanSection> at = forecastFan(course, {forecast.time_to_stop_s}, {forecast.threshold_m});
   sketch.line("stop ahead", 0, {at[0].left_enu_m, at[0].right_enu_m}, 2.0 * kThinLine_m, kLimitColour);
   sketch.text("stop ahead", 1, raised(at[0].left_enu_m, kLabelHeight_m), params.text_height_m, kTextColour,
-              "stop in " + formatted(forecast.time_to_stop_s, 0) + " s");
+              "bound " + formatted(forecast.threshold_m, 1) + " m");
 }
 
 bool isCurrent(const ErrorForecast* forecast, const EstimateSample& newest) {

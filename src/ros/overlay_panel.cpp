@@ -35,6 +35,12 @@ TextSize sizeOf(const std::string& words, double letter_height_m) {
 }
 
 std::string supervisorLine(const DrivePicture& picture, const StopStatus* stop) {
+  if (stop != nullptr && stop->emergency_stop != 0) {
+    return "EMERGENCY STOP";
+  }
+  if (stop != nullptr && stop->overridden != 0) {
+    return "OVERRIDE: NO STOPS";
+  }
   if (stop == nullptr || stop->mode == StopStatus::MODE_OFF) {
     return picture.isStationary() ? "STANDING" : "DRIVING";
   }
