@@ -1,0 +1,106 @@
+/// Is the estimate honest in worlds that its own simulator was not made for? One configuration per sensor grade.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <future>
+#include <string>
+#include <vector>
+
+#include "slipnav/eval/simulated_run.h"
+#include "slipnav/sim/world_files.h"
+
+namespace slipnav::test {
+namespace {
+
+/// So many that the average strays by 0.17.
+constexpr int kSeeds = 24;
+/// What the average normalised estimation error squared, per degree of freedom, may be: 1 is exact.
+constexpr Range kAnees{0.4, 1.6};
+constexpr double kLeastCoverage_pct = 98.0;
+/// Final error over that of wheels and gyro, with a spare part of the distance.
+constexpr double kLargestRatio = 1.2;
+constexpr double kSpare_pct = 0.1;
+constexpr double kLargestSpeedRatio = 3.0;
+
+struct Place {
+  const char* world;
+  const char* grade;
+  const char* policy;
+};
+
+std::string nameOf(const Place& place) {
+  return std::string(place.world) + "_" + place.grade + (std::string(place.policy) == "none" ? "" : "_stops");
+}
+
+SimulationReport driveIn(const Place& place, int seed) {
+  const std::string folder = SLIPNAV_SOURCE_DIR "/config/";
+  Config config = Config::load({sim::configurationNamed(place.grade, folder + "grades", "grade"),
+                                sim::configurationNamed(place.world, folder + "worlds", "world")});
+  config.simulator.seed = seed;
+  const std::unique_ptr<StopPolicy> policy = makeStopPolicy(place.policy, config.stop);
+  return simulateAndMeasure(config, *policy, {}, false);
+}
+
+/// Two at a time.
+std::vector<SimulationReport> drivesIn(const Place& place) {
+  std::vector<SimulationReport> reports;
+  for (int seed = 1; seed <= kSeeds; seed += 2) {
+    auto other = std::async(std::launch::async, driveIn, place, seed + 1);
+    reports.push_back(driveIn(place, seed));
+    reports.push_back(other.get());
+  }
+  return reports;
+}
+
+double average(const std::vector<SimulationReport>& reports, std::optional<double> SimulationFigures::*figure) {
+  double sum = 0.0;
+  for (const SimulationReport& report : reports) {
+    sum += (report.figures.*figure).value() / kSeeds;
+  }
+  return sum;
+}
+
+void expectHonest(double anees, const std::string& what) {
+  EXPECT_GE(anees, kAnees.min) << what;
+  EXPECT_LE(anees, kAnees.max) << what;
+}
+
+void expectHarmless(const SimulationReport& report) {
+  const Metrics& metrics = report.run.metrics;
+  const double final_pct = 100.0 * metrics.horizontal_final_m.value() / metrics.distance_m.value();
+  EXPECT_LE(final_pct, kLargestRatio * metrics.wheel_only_error_pct.value() + kSpare_pct);
+  EXPECT_LE(report.figures.largest_speed_mps, kLargestSpeedRatio * report.figures.largest_wheel_speed_mps);
+  EXPECT_EQ(report.figures.stops_used, report.figures.stops_seen);
+}
+
+class Zoo : public ::testing::TestWithParam<Place> {};
+
+TEST_P(Zoo, IsHonestAndHarmless) {
+  const std::vector<SimulationReport> reports = drivesIn(GetParam());
+  double coverage_pct = 0.0;
+  for (const SimulationReport& report : reports) {
+    coverage_pct += report.run.metrics.coverage_3sigma_pct.value() / kSeeds;
+    expectHarmless(report);
+  }
+  const double attitude = average(reports, &SimulationFigures::nees_end_attitude);
+  const double velocity = average(reports, &SimulationFigures::nees_end_velocity);
+  const double position = average(reports, &SimulationFigures::nees_end_position);
+  std::printf("%s: attitude %.2f velocity %.2f position %.2f, coverage %.2f %%\n", nameOf(GetParam()).c_str(), attitude,
+              velocity, position, coverage_pct);
+  expectHonest(attitude, "attitude");
+  expectHonest(velocity, "velocity");
+  expectHonest(position, "position");
+  EXPECT_GE(coverage_pct, kLeastCoverage_pct);
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Zoo,
+                         ::testing::Values(Place{"rough", "tactical", "periodic:30:5"},
+                                           Place{"unpaved", "tactical", "periodic:30:5"},
+                                           Place{"encoders_2hz", "tactical", "periodic:30:5"},
+                                           Place{"circle", "tactical", "periodic:60:5"}),
+                         [](const auto& place) { return nameOf(place.param); });
+
+}  // namespace
+}  // namespace slipnav::test
