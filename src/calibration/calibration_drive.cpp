@@ -1,8 +1,11 @@
 #include "slipnav/calibration/calibration_drive.h"
 
 #include <algorithm>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+
+#include "slipnav/ins/imu_clock.h"
 
 namespace slipnav {
 namespace {
@@ -22,6 +25,19 @@ void sortSamples(std::vector<Sample>& samples) {
   throw std::invalid_argument(message.str());
 }
 
+std::vector<ImuSample> withCorrectedStamps(const std::vector<ImuSample>& samples, const ImuInputParams& params) {
+  ImuClock clock(params.gap_factor);
+  std::vector<ImuSample> corrected;
+  corrected.reserve(samples.size());
+  for (const ImuSample& sample : samples) {
+    clock.push(sample);
+    while (const std::optional<ImuSample> next = clock.pop()) {
+      corrected.push_back(*next);
+    }
+  }
+  return corrected;
+}
+
 }  // namespace
 
 void sortByStamp(CalibrationDrive& drive) {
@@ -35,7 +51,7 @@ std::vector<TimedInterval> imuIntervals(const std::vector<ImuSample>& samples, c
   std::vector<TimedInterval> intervals;
   intervals.reserve(samples.size());
   ImuSample before;
-  for (const ImuSample& sample : samples) {
+  for (const ImuSample& sample : withCorrectedStamps(samples, params)) {
     const ImuScreen::Result result = screen.check(sample);
     if (!isAccepted(result.verdict)) {
       continue;
