@@ -171,6 +171,7 @@ Metrics computeMetrics(const MetricsInput& input, const MetricsOptions& options)
   }
   metrics.no_zupt_error_pct = input.no_zupt_error_pct;
   fillCounters(input.counters, metrics);
+  metrics.truth_left_out = input.truth_left_out;
   metrics.stops_seen = input.stops.seen;
   metrics.stops_used = input.stops.used;
   metrics.verdict = verdictOf(metrics, input.uses_stops);

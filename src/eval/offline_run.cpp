@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "slipnav/eval/truth_gate.h"
 #include "slipnav/math/rotation.h"
 #include "slipnav/slip/slip_ratio.h"
 
@@ -136,12 +137,15 @@ void OfflineRun::startWheelOnly(const Output& out) {
   earlier_speeds_.clear();
 }
 
-TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment) const {
-  TruthTrack truth =
+TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment, MetricsInput& input) const {
+  const TruthTrack whole =
       truth_poses_.empty() ? TruthTrack::fromFixes(truth_fixes_, output_->frame()) : TruthTrack(truth_poses_);
-  if (truth.empty()) {
-    return truth;
+  if (whole.empty()) {
+    return whole;
   }
+  requireTimeInCommon(whole, estimates_);
+  TruthTrack truth = withoutJumps(whole);
+  input.truth_left_out = static_cast<std::int64_t>(whole.samples().size() - truth.samples().size());
   if (alignment.at_start) {
     truth = alignAtStart(truth, estimates_, *alignment.at_start);
   }
@@ -157,9 +161,9 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
     throw std::runtime_error(failure());
   }
   RunReport report;
-  report.estimates = estimates_;
-  report.truth = truthTrack(alignment);
   MetricsInput input;
+  report.estimates = estimates_;
+  report.truth = truthTrack(alignment, input);
   input.estimates = estimates_;
   input.truth = report.truth;
   input.wheel_only = wheel_only_->track();

@@ -99,6 +99,7 @@ std::string metricsJson(const Metrics& metrics) {
   json.addNumber("final_pct", metrics.final_pct);
   json.addCount("stops_seen", metrics.stops_seen);
   json.addCount("stops_used", metrics.stops_used);
+  json.addCount("truth_left_out", metrics.truth_left_out);
   json.addText("verdict", metrics.verdict);
   json.addAlarms("problems", metrics.problems);
   json.addAlarms("alarms", metrics.alarms);

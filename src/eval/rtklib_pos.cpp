@@ -1,6 +1,7 @@
 #include "slipnav/eval/rtklib_pos.h"
 
 #include <GeographicLib/Geocentric.hpp>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <fstream>
@@ -195,13 +196,34 @@ RtklibQuality parseQuality(const std::string& field) {
   return static_cast<RtklibQuality>(value);
 }
 
+std::size_t qualityField(const Header& header) {
+  const bool is_dms = header.layout == Layout::kDegreesMinutesSeconds;
+  return kTimeFields + (is_dms ? 2 * kAngleFields + 1 : 3);
+}
+
+/// Rows of epochs that could not be solved.
+bool hasNoSolution(const Header& header, const Fields& fields) {
+  const std::size_t at = qualityField(header);
+  return fields.size() > at && fields[at] == "0";
+}
+
+/// "% (lat/lon/height=WGS84/geodetic,...)": heights above the geoid, tens of meters from those above the ellipsoid.
+void refuseGeodeticHeights(const Fields& fields) {
+  for (const std::string& field : fields) {
+    if (field.find("height=") != std::string::npos && field.find("geodetic") != std::string::npos) {
+      throw std::invalid_argument(
+          "heights are geodetic, above the geoid, and the geoid is not known here: write the solution again with "
+          "ellipsoidal heights (rtkpost: Options, Output, Datum/Height)");
+    }
+  }
+}
+
 RtklibSolution parseRow(const Header& header, const Fields& fields, const std::optional<Vector3>& reference_ecef_m) {
   if (fields.size() < header.field_count) {
     throw std::invalid_argument(std::to_string(fields.size()) + " fields instead of " +
                                 std::to_string(header.field_count));
   }
-  const bool is_dms = header.layout == Layout::kDegreesMinutesSeconds;
-  const std::size_t quality_at = kTimeFields + (is_dms ? 2 * kAngleFields + 1 : 3);
+  const std::size_t quality_at = qualityField(header);
   const Position position = parsePosition(header, fields, reference_ecef_m);
   RtklibSolution solution;
   solution.fix.stamp = parseStamp(header, fields);
@@ -226,6 +248,9 @@ class Reader {
       readComment(fieldsOf(line.substr(line.find('%') + 1)));
     } else if (!header_) {
       throw std::invalid_argument("a solution before the header line that names the columns");
+    } else if (hasNoSolution(*header_, fields)) {
+      solutions_.emplace_back();
+      solutions_.back().quality = RtklibQuality::kNone;
     } else {
       solutions_.push_back(parseRow(*header_, fields, reference_ecef_m_));
     }
@@ -238,6 +263,7 @@ class Reader {
     if (fields.empty()) {
       return;
     }
+    refuseGeodeticHeights(fields);
     if (const auto time_system = timeSystemOf(fields.front())) {
       header_ = parseHeader(*time_system, fields);
     } else if (fields.size() == 6 && fields[0] == "ref" && fields[1] == "pos") {
@@ -267,7 +293,11 @@ std::vector<RtklibSolution> readRtklibPos(std::istream& in, const std::string& n
 
 bool isRtklibFile(const std::string& name) {
   const std::string ending = ".pos";
-  return name.size() > ending.size() && name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
+  if (name.size() <= ending.size()) {
+    return false;
+  }
+  return std::equal(ending.begin(), ending.end(), name.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                    [](char wanted, char c) { return wanted == (c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c); });
 }
 
 std::vector<RtklibSolution> readRtklibPos(const std::string& path) {

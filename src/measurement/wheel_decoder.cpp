@@ -4,17 +4,80 @@
 #include <cmath>
 
 namespace slipnav {
+namespace {
+
+/// Several drivers may publish into one topic; a wheel that is in none of so many messages is not there.
+constexpr int kMostOtherJoints = 20;
+/// Wheels that have turned this far while all velocities said zero: the velocities are not filled in.
+constexpr double kTurnedWithoutVelocity_rad = 0.2;
+/// Angles are computed in single precision by some drivers.
+constexpr double kAngleSlack_rad = 1e-3;
+
+}  // namespace
 
 std::optional<WheelSample> WheelDecoder::decode(const JointArrays& joints) {
   problem_.clear();
-  if (!locate(joints)) {
+  remark_.clear();
+  if (isOfOtherJoints(joints) || !locate(joints)) {
     return std::nullopt;
   }
-  if (!joints.velocity_radps.empty()) {
-    const std::optional<WheelSample> rates = pick(joints, joints.velocity_radps, "velocity");
-    return rates ? possible(*rates, "turns too fast") : std::nullopt;
+  if (!by_positions_ && !joints.position_rad.empty() && !joints.velocity_radps.empty() && !hasVelocities(joints)) {
+    usePositions("has velocities that are not finite numbers");
   }
-  return fromPositions(joints);
+  if (by_positions_ || joints.velocity_radps.empty()) {
+    return fromPositions(joints);
+  }
+  const std::optional<WheelSample> rates = pick(joints, joints.velocity_radps, "velocity");
+  if (!rates) {
+    return std::nullopt;
+  }
+  const std::optional<WheelSample> better = insteadOfStanding(joints, *rates);
+  return better ? better : possible(*rates, "turns too fast");
+}
+
+/// Wheels that are not among the joints of this message, but have been or may be among those of another.
+bool WheelDecoder::isOfOtherJoints(const JointArrays& joints) {
+  const auto isNamed = [&joints](const WheelParams& wheel) {
+    return wheel.name.empty() || std::find(joints.names.begin(), joints.names.end(), wheel.name) != joints.names.end();
+  };
+  if (joints.names.empty() || std::any_of(wheels_.begin(), wheels_.end(), isNamed)) {
+    return false;
+  }
+  return !indices_.empty() || ++other_joints_ < kMostOtherJoints;
+}
+
+/// Whether all wheels have a velocity that is a number. Arrays of a wrong length are judged elsewhere.
+bool WheelDecoder::hasVelocities(const JointArrays& joints) const {
+  return std::all_of(indices_.begin(), indices_.end(), [&joints](std::size_t i) {
+    return i >= joints.velocity_radps.size() || std::isfinite(joints.velocity_radps[i]);
+  });
+}
+
+void WheelDecoder::usePositions(const std::string& why) {
+  by_positions_ = true;
+  remark_ = why + ": positions are used instead";
+}
+
+/// Rates by positions, once the velocities have turned out to be always zero while the positions move.
+std::optional<WheelSample> WheelDecoder::insteadOfStanding(const JointArrays& joints, const WheelSample& rates) {
+  const auto isZero = [](double rate) { return rate == 0.0; };
+  velocity_seen_ = velocity_seen_ || !std::all_of(rates.rate_radps.begin(), rates.rate_radps.end(), isZero);
+  if (velocity_seen_ || joints.position_rad.empty()) {
+    return std::nullopt;
+  }
+  std::optional<WheelSample> by_position = fromPositions(joints);
+  problem_.clear();  // so far it is the velocities that count
+  if (!by_position) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    turned_rad_ += std::abs(by_position->rate_radps[i]) * interval_s_ / static_cast<double>(wheels_.size());
+  }
+  if (turned_rad_ <= kTurnedWithoutVelocity_rad) {
+    return std::nullopt;
+  }
+  usePositions("has velocities that are always 0 while the positions move");
+  return by_position;
 }
 
 bool WheelDecoder::locate(const JointArrays& joints) {
@@ -69,14 +132,33 @@ std::optional<WheelSample> WheelDecoder::fromPositions(const JointArrays& joints
   }
   const std::optional<WheelSample> before = last_;
   last_ = angles;
+  noteRange(*angles);
   if (!before || angles->stamp <= before->stamp) {
     return std::nullopt;
   }
+  interval_s_ = toSeconds(angles->stamp - before->stamp);
   WheelSample rates = *angles;
   for (std::size_t i = 0; i < rates.count; ++i) {
-    rates.rate_radps[i] = (angles->rate_radps[i] - before->rate_radps[i]) / toSeconds(angles->stamp - before->stamp);
+    rates.rate_radps[i] = turned(before->rate_radps[i], angles->rate_radps[i]) / interval_s_;
   }
   return possible(rates, "has jumped");
+}
+
+void WheelDecoder::noteRange(const WheelSample& angles) {
+  for (std::size_t i = 0; i < angles.count; ++i) {
+    const double angle_rad = wheels_[i].sign * angles.rate_radps[i];  // as the message has it
+    beyond_minus_pi_ = beyond_minus_pi_ || angle_rad < -kPi - kAngleSlack_rad;
+    beyond_zero_ = beyond_zero_ || angle_rad < -kAngleSlack_rad;
+    beyond_pi_ = beyond_pi_ || angle_rad > kPi + kAngleSlack_rad;
+    beyond_two_pi_ = beyond_two_pi_ || angle_rad > 2.0 * kPi + kAngleSlack_rad;
+  }
+}
+
+/// From one position to the next [rad], the shorter way where positions wrap.
+double WheelDecoder::turned(double from_rad, double to_rad) const {
+  const double difference_rad = to_rad - from_rad;
+  const bool within_one_turn = (!beyond_minus_pi_ && !beyond_pi_) || (!beyond_zero_ && !beyond_two_pi_);
+  return within_one_turn ? std::remainder(difference_rad, 2.0 * kPi) : difference_rad;
 }
 
 std::optional<WheelSample> WheelDecoder::possible(const WheelSample& rates, const char* what) {

@@ -7,13 +7,22 @@
 #include "slipnav/math/rotation.h"
 #include "slipnav/math/square.h"
 #include "slipnav/navigator/navigator.h"
+#include "slipnav/navigator/start_covariance.h"
 
 namespace slipnav {
 namespace {
 
 // Wide enough that what follows decides: the filter sees the same samples again and must not count them twice.
 constexpr double kLevelStd_rad = 2.0 * kPi / 180.0;
-constexpr double kDriveHeadingStd_rad = 5.0 * kPi / 180.0;
+constexpr double kLeastDriveHeadingStd_rad = 5.0 * kPi / 180.0;
+constexpr double kHeadingStdFactor = 3.0;
+// The drive goes on until its fixes tell the heading so well, or is taken as it is after so many times its usual
+// length.
+constexpr double kHeadingGoal_rad = 2.0 * kPi / 180.0;
+constexpr double kLongestDrive = 5.0;
+// Way by fixes over way by wheels: a rover that is stuck, or fixes that wander, tell no heading.
+constexpr double kLeastScale = 0.5;
+constexpr double kLargestScale = 2.0;
 constexpr double kRestVelocityStd_mps = 0.05;
 constexpr double kFixStdFactor = 3.0;
 constexpr double kFixesSilent_s = 3.0;
@@ -23,6 +32,10 @@ constexpr double kTruthVelocityStd_mps = 1e-3;
 
 Vector3 inBodyAxes(const std::vector<double>& values, double unit) {
   return unit * Vector3(values.at(0), values.at(1), values.at(2));
+}
+
+Geodetic startingPlace(const InitializationParams& params) {
+  return {degToRad(params.latitude_deg), degToRad(params.longitude_deg), params.height_m};
 }
 
 ErrorCovariance priorCovariance(const ErrorVector& prior_variance) { return prior_variance.asDiagonal(); }
@@ -48,6 +61,8 @@ void InitializationParams::visit(ParameterVisitor& v) {
   v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0}, "1σ of roll and pitch levelled on the move [°]");
   v.number("moving_speed_std_mps", moving_speed_std_mps, {1e-3, 10.0},
            "1σ of the velocity when starting on the move [m/s]");
+  v.number("fix_stamp_offset_s", fix_stamp_offset_s, {-3600.0, 3600.0},
+           "added to the stamps of gps/fix and gps/velocity, for a receiver in another time [s]");
   v.numbers("gyro_bias_deg_per_h", gyro_bias_deg_per_h, {-1e6, 1e6},
             "mean of the gyro bias at switch-on, body axes forward, right, down [°/h]");
   v.numbers("accel_bias_ug", accel_bias_ug, {-1e6, 1e6},
@@ -61,13 +76,34 @@ Initializer::Initializer(const Planet& planet, const InitializationParams& param
       imu_params_(imu),
       setup_(setup),
       prior_variance_(ErrorDynamics(planet, setup.imu, setup.vehicle).priorVariance()),
-      recording_(
-          setup.stationary,
-          planet.gravity_n({degToRad(params.latitude_deg), degToRad(params.longitude_deg), params.height_m}).norm(),
-          params.min_rest_s, params.max_rest_s) {}
+      recording_(setup.stationary, planet.gravity_n(startingPlace(params)).norm(), params.min_rest_s, params.max_rest_s,
+                 inBodyAxes(params.accel_bias_ug, kMicroG),
+                 inBodyAxes(params.gyro_bias_deg_per_h, degPerHourToRadps(1.0))),
+      check_(planet.gravity_n(startingPlace(params)).norm(), setup.stationary.wheel_speed_mps) {}
+
+void Initializer::push(const ImuSample& sample) {
+  check_.push(sample);
+  if (check_.complaint().empty()) {
+    recording_.push(sample);
+  } else {
+    recording_.clear();
+  }
+}
+
+void Initializer::push(const WheelMotion& wheels) {
+  check_.push(wheels);
+  if (check_.complaint().empty()) {
+    recording_.push(wheels);
+  } else {
+    recording_.clear();
+  }
+}
 
 void Initializer::reset() {
   recording_.clear();
+  check_.reset();
+  judged_fix_ = 0;
+  clock_complaint_.clear();
   truth_.reset();
 }
 
@@ -82,6 +118,9 @@ void Initializer::setTruth(const NavigationState& truth, bool has_attitude) {
 }
 
 std::optional<InitialState> Initializer::result() const {
+  if (!check_.complaint().empty()) {
+    return std::nullopt;
+  }
   if (params_.source == "gnss") {
     return fromDrive();
   }
@@ -94,6 +133,9 @@ bool Initializer::missesFixes() const {
 }
 
 std::string Initializer::progress() const {
+  if (!complaint().empty()) {
+    return complaint();
+  }
   if (params_.source != "gnss") {
     return recording_.imu().empty() ? "waiting for imu/data" : "levelling";
   }
@@ -152,95 +194,88 @@ std::optional<InitialState> Initializer::fromWindow() const {
   return initial;
 }
 
-std::optional<InitialState> Initializer::fromDrive() const {
-  const bool rested = recording_.restIsLongEnough();
-  if (recording_.imu().size() < 2 || recording_.fixes().empty() || (rested && !recording_.rest().over)) {
-    return std::nullopt;
-  }
-  const std::optional<Nanoseconds> begin = recording_.windowBeginFrom(
-      rested ? recording_.rest().begin : recording_.fixes().front().stamp, params_.levelling_window_s);
-  const std::optional<PositionFix> start = begin ? startFix(*begin) : std::nullopt;
-  const std::optional<PositionFix> end = start ? endFix(*start) : std::nullopt;
-  const std::optional<Nanoseconds> until = end ? recording_.firstImuStampFrom(end->stamp) : std::nullopt;
-  if (!until || recording_.wheels().empty()) {
-    return std::nullopt;
-  }
-  const bool wheels_known = recording_.wheels().back().stamp >= *until;
-  if (!wheels_known && toSeconds(recording_.imu().back().stamp - *until) < setup_.filter.max_wait_s) {
-    return std::nullopt;
-  }
-  const Nanoseconds level_end = rested ? recording_.rest().end : *begin + fromSeconds(params_.levelling_window_s);
-  InitialState initial = levelled(*begin, level_end, rested, headingOfDrive(*start, *end, rested));
-  initial.nav.position = start->position;
-  const Vector3 antenna_n = initial.nav.q_b_to_n * setup_.lever_imu_to_antenna_b;
-  ErrorVector lever = ErrorVector::Zero();
-  lever.segment<3>(kPosition) = antenna_n;
-  subtractError(planet_, lever, initial.nav);
-  initial.origin = initial.nav.position;
-  initial.P(kAttitude + 2, kAttitude + 2) = square(kDriveHeadingStd_rad);
-  initial.P.diagonal().segment<3>(kPosition) = square(kFixStdFactor) * start->variance_ned_m2;
-  InitialState result = runFilter(initial, *until);
-  result.origin = initial.origin;
-  return result;
-}
-
-std::optional<PositionFix> Initializer::startFix(Nanoseconds begin) const {
-  if (!recording_.restIsLongEnough()) {
-    return recording_.fixes().front();
-  }
-  PositionFix mean;
-  double n = 0.0;
-  double latitude = 0.0;
-  double longitude = 0.0;
-  for (const PositionFix& fix : recording_.fixes()) {
-    if (fix.stamp < begin || fix.stamp > recording_.rest().end) {
-      continue;
-    }
-    if (n == 0.0) {
-      mean = fix;
-      mean.position.height_m = 0.0;
-    }
-    const Geodetic& reference = recording_.fixes().front().position;  // offsets keep the digits
-    latitude += fix.position.latitude_rad - reference.latitude_rad;
-    longitude += wrapToPi(fix.position.longitude_rad - reference.longitude_rad);
-    mean.position.height_m += fix.position.height_m;
-    n += 1.0;
-  }
-  if (n == 0.0) {
-    return std::nullopt;
-  }
-  mean.position = {recording_.fixes().front().position.latitude_rad + latitude / n,
-                   wrapToPi(recording_.fixes().front().position.longitude_rad + longitude / n),
-                   mean.position.height_m / n};
-  mean.stamp = begin;
-  return mean;
-}
-
-std::optional<PositionFix> Initializer::endFix(const PositionFix& start) const {
-  for (const PositionFix& fix : recording_.fixes()) {
-    if (fix.stamp > start.stamp &&
-        positionDifference(planet_, fix.position, start.position).head<2>().norm() >= params_.drive_distance_m) {
-      return fix;
+std::optional<Initializer::DriveEnd> Initializer::newestKnownFix() const {
+  const std::vector<PositionFix>& fixes = recording_.fixes();
+  for (auto fix = fixes.rbegin(); fix != fixes.rend() && fix->stamp > judged_fix_; ++fix) {
+    const std::optional<Nanoseconds> until = recording_.firstImuStampFrom(fix->stamp);
+    if (until && (recording_.wheels().back().stamp >= *until ||
+                  toSeconds(recording_.imu().back().stamp - *until) >= setup_.filter.max_wait_s)) {
+      return DriveEnd{fix->stamp, *until};
     }
   }
   return std::nullopt;
 }
 
-double Initializer::headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const {
+std::optional<InitialState> Initializer::fromDrive() const {
+  const bool rested = recording_.restIsLongEnough();
+  if (recording_.imu().size() < 2 || recording_.fixes().empty() || recording_.wheels().empty() ||
+      (rested && !recording_.rest().over)) {
+    return std::nullopt;
+  }
+  if (!clock_complaint_.empty() && recording_.rest().begin <= judged_fix_) {
+    return std::nullopt;  // on a straight line the lag would soon hide in the place of the start
+  }
+  const std::optional<Nanoseconds> begin = recording_.windowBeginFrom(
+      rested ? recording_.rest().begin : recording_.fixes().front().stamp, params_.levelling_window_s);
+  const std::optional<DriveEnd> end = newestKnownFix();
+  const bool levels =
+      begin && (rested || toSeconds(recording_.imu().back().stamp - *begin) >= params_.levelling_window_s);
+  if (!levels || !end) {
+    return std::nullopt;
+  }
+  judged_fix_ = end->fix;
+  const std::optional<DriveFit> fit = fitOfDrive(*begin, end->fix, rested);
+  if (!fit) {
+    return std::nullopt;
+  }
+  const InitialState initial = beginOfDrive(*begin, *fit, rested);
+  InitialState result = runFilter(initial, end->imu);
+  result.origin = initial.origin;
+  return result;
+}
+
+/// Nothing as long as the drive does not tell the heading.
+std::optional<DriveFit> Initializer::fitOfDrive(Nanoseconds begin, Nanoseconds end, bool at_rest) const {
   const double bias_z = at_rest ? recording_.mean(recording_.rest().begin, recording_.rest().end).omega_ib_b.z()
                                 : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
-  double heading = 0.0;
-  Vector2 track = Vector2::Zero();
-  for (std::size_t i = 1; i < recording_.imu().size() && recording_.imu()[i].stamp <= end.stamp; ++i) {
-    if (recording_.imu()[i].stamp <= start.stamp) {
-      continue;
-    }
-    const double dt_s = toSeconds(recording_.imu()[i].stamp - recording_.imu()[i - 1].stamp);
-    heading += dt_s * (recording_.imu()[i].omega_ib_b.z() - bias_z);
-    track += dt_s * recording_.speedAt(recording_.imu()[i].stamp) * Vector2(std::cos(heading), std::sin(heading));
+  const Nanoseconds level_end = at_rest ? recording_.rest().end : begin + fromSeconds(params_.levelling_window_s);
+  const Quaternion q_b_to_level = levelled(begin, level_end, at_rest, 0.0).nav.q_b_to_n;
+  const DriveTrack track(recording_, begin, bias_z, q_b_to_level * setup_.lever_imu_to_antenna_b);
+  if (track.reach() < params_.drive_distance_m) {
+    return std::nullopt;
   }
-  const Vector3 driven = positionDifference(planet_, end.position, start.position);
-  return wrapToPi(std::atan2(driven.y(), driven.x()) - std::atan2(track.y(), track.x()));
+  const std::vector<PositionFix>& fixes = recording_.fixes();
+  const Geodetic& reference = fixes.front().position;
+  if (const std::optional<double> lag_s = lagOfFixes(planet_, fixes, track, reference, begin, end)) {
+    clock_complaint_ = describeLag(*lag_s);
+    return std::nullopt;
+  }
+  clock_complaint_.clear();
+  const std::optional<DriveFit> fit = fitDrive(planet_, fixes, track, reference, begin, end);
+  const bool tells =
+      fit && fit->distance_m >= params_.drive_distance_m && fit->scale > kLeastScale && fit->scale < kLargestScale &&
+      (fit->heading_std_rad < kHeadingGoal_rad || fit->distance_m >= kLongestDrive * params_.drive_distance_m);
+  return tells ? fit : std::nullopt;
+}
+
+InitialState Initializer::beginOfDrive(Nanoseconds begin, const DriveFit& fit, bool at_rest) const {
+  const Nanoseconds level_end = at_rest ? recording_.rest().end : begin + fromSeconds(params_.levelling_window_s);
+  InitialState initial = levelled(begin, level_end, at_rest, fit.heading_rad);
+  const std::vector<PositionFix>& fixes = recording_.fixes();
+  initial.nav.position = fixes.front().position;
+  ErrorVector from_start = ErrorVector::Zero();
+  from_start.segment<2>(kPosition) = -fit.start_ne_m;
+  subtractError(planet_, from_start, initial.nav);
+  const Vector3 antenna_n = initial.nav.q_b_to_n * setup_.lever_imu_to_antenna_b;
+  initial.nav.position.height_m = meanHeight(fixes, begin, level_end) + antenna_n.z();
+  initial.origin = initial.nav.position;
+  const auto best = std::min_element(fixes.begin(), fixes.end(), [](const PositionFix& a, const PositionFix& b) {
+    return a.variance_ned_m2.sum() < b.variance_ned_m2.sum();
+  });
+  initial.P.diagonal().segment<3>(kPosition) = square(kFixStdFactor) * best->variance_ned_m2;
+  initial.P(kAttitude + 2, kAttitude + 2) =
+      square(std::max(kLeastDriveHeadingStd_rad, kHeadingStdFactor * fit.heading_std_rad));
+  return initial;
 }
 
 InitialState Initializer::levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const {
@@ -249,28 +284,45 @@ InitialState Initializer::levelled(Nanoseconds begin, Nanoseconds end, bool at_r
   initial.nav.accel_bias_b = inBodyAxes(params_.accel_bias_ug, kMicroG);
   initial.nav.gyro_bias_b = inBodyAxes(params_.gyro_bias_deg_per_h, degPerHourToRadps(1.0));
   initial.P = priorCovariance(prior_variance_);
-  Vector2 roll_pitch;
   if (at_rest) {
-    roll_pitch = levelAtRest(recording_.mean(begin, end).f_ib_b - initial.nav.accel_bias_b);
-    initial.P.diagonal().segment<3>(kAttitude).setConstant(square(kLevelStd_rad));
-    initial.P.diagonal().segment<3>(kVelocity).setConstant(square(kRestVelocityStd_mps));
+    levelAtRestInto(recording_.mean(begin, end), heading_rad, initial);
   } else {
-    std::vector<ImuSample> window;
-    std::copy_if(recording_.imu().begin(), recording_.imu().end(), std::back_inserter(window),
-                 [begin, end](const ImuSample& s) { return s.stamp >= begin && s.stamp <= end; });
-    for (ImuSample& sample : window) {
-      sample.f_ib_b -= initial.nav.accel_bias_b;
-      sample.omega_ib_b -= initial.nav.gyro_bias_b;
-    }
-    roll_pitch = levelAtRest(reactionToGravityOnTheMove(window, recording_.speedAt(begin), recording_.speedAt(end)));
-    initial.P.diagonal().segment<3>(kAttitude).setConstant(square(degToRad(params_.moving_level_std_deg)));
-    initial.P.diagonal().segment<3>(kVelocity).setConstant(square(params_.moving_speed_std_mps));
-  }
-  initial.nav.q_b_to_n = q_b_to_n_fromEuler(roll_pitch.x(), roll_pitch.y(), heading_rad);
-  if (!at_rest) {
-    initial.nav.v_eb_n = initial.nav.q_b_to_n * Vector3(recording_.speedAt(begin), 0.0, 0.0);
+    levelOnTheMoveInto(begin, end, heading_rad, initial);
   }
   return initial;
+}
+
+void Initializer::levelAtRestInto(const ImuSample& mean, double heading_rad, InitialState& initial) const {
+  const auto attitude = [&mean, heading_rad](const Vector3& accel_bias_b) {
+    const Vector2 roll_pitch = levelAtRest(mean.f_ib_b - accel_bias_b);
+    return q_b_to_n_fromEuler(roll_pitch.x(), roll_pitch.y(), heading_rad);
+  };
+  initial.nav.q_b_to_n = attitude(initial.nav.accel_bias_b);
+  initial.P.diagonal().segment<3>(kAttitude).setConstant(square(kLevelStd_rad));
+  initial.P.diagonal().segment<3>(kVelocity).setConstant(square(kRestVelocityStd_mps));
+  tieLevelToAccelBias(planet_, attitude, initial);
+  believeSurprisingBias(mean.omega_ib_b, initial);
+}
+
+void Initializer::levelOnTheMoveInto(Nanoseconds begin, Nanoseconds end, double heading_rad,
+                                     InitialState& initial) const {
+  std::vector<ImuSample> window;
+  std::copy_if(recording_.imu().begin(), recording_.imu().end(), std::back_inserter(window),
+               [begin, end](const ImuSample& s) { return s.stamp >= begin && s.stamp <= end; });
+  for (ImuSample& sample : window) {
+    sample.omega_ib_b -= initial.nav.gyro_bias_b;
+  }
+  const double speed_mps = recording_.speedAt(begin);
+  const Vector3 reaction = reactionToGravityOnTheMove(window, speed_mps, recording_.speedAt(end));
+  const auto attitude = [&reaction, heading_rad](const Vector3& accel_bias_b) {
+    const Vector2 roll_pitch = levelAtRest(reaction - accel_bias_b);
+    return q_b_to_n_fromEuler(roll_pitch.x(), roll_pitch.y(), heading_rad);
+  };
+  initial.nav.q_b_to_n = attitude(initial.nav.accel_bias_b);
+  initial.nav.v_eb_n = initial.nav.q_b_to_n * Vector3(speed_mps, 0.0, 0.0);
+  initial.P.diagonal().segment<3>(kAttitude).setConstant(square(degToRad(params_.moving_level_std_deg)));
+  initial.P.diagonal().segment<3>(kVelocity).setConstant(square(params_.moving_speed_std_mps));
+  tieLevelToAccelBias(planet_, attitude, initial);
 }
 
 InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until) const {

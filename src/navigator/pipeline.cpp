@@ -49,6 +49,11 @@ void Pipeline::use(const ImuSample& sample) {
       health_.note("gps/fix silent", sample.stamp);
     }
     tryToStart();
+  } else {
+    initializer_.watch(sample);
+  }
+  if (!initializer_.complaint().empty()) {
+    health_.note(initializer_.complaint(), sample.stamp);
   }
 }
 
@@ -63,6 +68,8 @@ void Pipeline::push(const WheelMotion& wheels) {
   if (!initial_) {
     initializer_.push(wheels);
     tryToStart();
+  } else {
+    initializer_.watch(wheels);
   }
 }
 

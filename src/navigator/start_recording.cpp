@@ -2,13 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <variant>
 
 namespace slipnav {
+namespace {
+
+/// [s] of driving after a rest in which a start has to be found.
+constexpr double kLongestDrive_s = 300.0;
+constexpr Nanoseconds kForgetAtOnce = 10 * kSecond;
+
+}  // namespace
 
 StartRecording::StartRecording(const StationaryParams& stationary, double gravity_mps2, double min_rest_s,
-                               double max_rest_s)
-    : gravity_mps2_(gravity_mps2), min_rest_s_(min_rest_s), max_rest_s_(max_rest_s), detector_(stationary) {}
+                               double max_rest_s, const Vector3& accel_bias_b, const Vector3& gyro_bias_b)
+    : gravity_mps2_(gravity_mps2),
+      min_rest_s_(min_rest_s),
+      max_rest_s_(max_rest_s),
+      accel_bias_b_(accel_bias_b),
+      gyro_bias_b_(gyro_bias_b),
+      detector_(stationary) {}
 
 void StartRecording::clear() {
   detector_.reset();
@@ -16,7 +29,7 @@ void StartRecording::clear() {
   wheels_.clear();
   fixes_.clear();
   velocity_fixes_.clear();
-  rest_ = Rest{};
+  rest_ = next_ = Rest{};
 }
 
 void StartRecording::push(const ImuSample& sample) {
@@ -25,7 +38,8 @@ void StartRecording::push(const ImuSample& sample) {
     return;
   }
   imu_.push_back(sample);
-  detector_.addImu(sample.stamp, sample.f_ib_b, sample.omega_ib_b);
+  detector_.addImu(sample.stamp, sample.f_ib_b - accel_bias_b_, sample.omega_ib_b - gyro_bias_b_);
+  forgetOld();
 }
 
 void StartRecording::push(const WheelMotion& wheels) {
@@ -65,6 +79,38 @@ void StartRecording::trackRest(const WheelMotion& wheels) {
       rest_ = Rest{};
     }
   }
+  if (rest_.over) {
+    trackNextRest(at_rest, wheels.stamp);
+  }
+}
+
+/// The drive after a rest may not have led to a start, for want of fixes: then a later rest counts.
+void StartRecording::trackNextRest(bool at_rest, Nanoseconds stamp) {
+  if (!at_rest) {
+    next_ = Rest{};
+    return;
+  }
+  if (next_.begin == 0) {
+    next_.begin = stamp;
+  }
+  next_.end = stamp;
+  if (isLongEnough(next_)) {
+    rest_ = std::exchange(next_, Rest{});
+    dropBefore(rest_.begin);
+  }
+}
+
+/// A drive so long that no start has come of it serves for nothing any more.
+void StartRecording::forgetOld() {
+  const Nanoseconds longest = fromSeconds(max_rest_s_ + kLongestDrive_s);
+  if (imu_.back().stamp - imu_.front().stamp <= longest + kForgetAtOnce) {
+    return;
+  }
+  const Nanoseconds begin = imu_.back().stamp - longest;
+  if (rest_.begin != 0 && rest_.begin < begin) {
+    rest_ = Rest{};
+  }
+  dropBefore(begin);
 }
 
 void StartRecording::forgetBefore(Nanoseconds stamp) {
@@ -72,6 +118,10 @@ void StartRecording::forgetBefore(Nanoseconds stamp) {
     return;
   }
   rest_.begin = stamp;
+  dropBefore(stamp);
+}
+
+void StartRecording::dropBefore(Nanoseconds stamp) {
   const auto drop = [stamp](auto& samples) {
     samples.erase(samples.begin(), std::find_if(samples.begin(), samples.end(),
                                                 [stamp](const auto& sample) { return sample.stamp >= stamp; }));

@@ -186,8 +186,13 @@ class FilterNodelet : public CoreNodelet {
     wheel_problem_ = wheel_input_->problem();
     if (!wheel_problem_.empty()) {
       ++rejected_;
+      health_->note(wheel_input_->problem(), engine_->state().stamp);
       NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s left out: %s", message->header.stamp.toSec(),
                             wheel_problem_.c_str());
+    }
+    if (!wheel_input_->remark().empty()) {
+      health_->note(wheel_input_->remark(), engine_->state().stamp);
+      NODELET_WARN("%s", wheel_input_->remark().c_str());
     }
     if (motion) {
       jumps_.push(*motion, [this](const WheelMotion& passed) { sortWheels(wheel_time_.push(passed)); });

@@ -29,6 +29,8 @@
 #include "slipnav/navigator/stamp_watch.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/health_report.h"
+#include "slipnav/ros/imu_input.h"
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/patience.h"
@@ -47,9 +49,11 @@ class InitializerNodelet : public CoreNodelet {
     }
     const NavigationSetup setup = config.navigation();
     frames_ = config.frames;
+    imu_input_.emplace(config);
+    inputs_.emplace(config.navigation().filter);
     fix_topic_ = config.topics.gps_fix;
+    fix_stamp_offset_ = fromSeconds(config.initialization.fix_stamp_offset_s);
     stamps_.emplace(config.topics.imu);
-    mount_.emplace(config.imu.mount);
     wheel_input_.emplace(config);
     clock_.emplace(setup.imu_input.gap_factor);
     screen_.emplace(setup.imu_input);
@@ -84,8 +88,13 @@ class InitializerNodelet : public CoreNodelet {
   void retune(const Config& config) override { initializer_->retune(config.navigation().filter); }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
-    stamps_->noteImu(toNanoseconds(message->header.stamp));
-    merger_->push(toImuSample(*message, *mount_));
+    const std::optional<ImuSample> sample = imu_input_->take(*message);
+    noteProblem(imu_input_->problem());
+    if (!sample) {
+      return;
+    }
+    stamps_->noteImu(sample->stamp);
+    merger_->push(*sample);
     trusted_.push(merger_->newestImuStamp(), now());
     takeOver(merger_->newestImuTime());
     resume(merger_->newestImuTime());
@@ -148,15 +157,32 @@ class InitializerNodelet : public CoreNodelet {
 
   template <class Message>
   void onWheels(const boost::shared_ptr<const Message>& message) {
-    if (const std::optional<WheelMotion> motion = wheel_input_->take(*message)) {
+    const std::optional<WheelMotion> motion = wheel_input_->take(*message);
+    noteProblem(wheel_input_->problem());
+    noteProblem(wheel_input_->remark());
+    if (motion) {
       watch(wheel_input_->topic(), motion->stamp);
       merger_->push(*motion);
       proceed();
     }
   }
 
+  /// Of a message that was left out; a start may be waiting for nothing else.
+  void noteProblem(const std::string& problem) {
+    if (!problem.empty()) {
+      inputs_->note(problem, fromSeconds(now()));
+      NODELET_WARN_THROTTLE(10.0, "%s", problem.c_str());
+    }
+  }
+
   void onFix(const sensor_msgs::NavSatFix::ConstPtr& message) {
-    if (const std::optional<GnssFix> fix = toGnssFix(*message)) {
+    const std::string complaint = complaintOf(*message, fix_topic_);
+    noteProblem(complaint);
+    if (!complaint.empty()) {
+      return;
+    }
+    if (std::optional<GnssFix> fix = toGnssFix(*message)) {
+      fix->stamp += fix_stamp_offset_;
       watch(fix_topic_, fix->stamp);
       merger_->push(toPositionFix(*fix));
       proceed();
@@ -164,7 +190,8 @@ class InitializerNodelet : public CoreNodelet {
   }
 
   void onVelocity(const geometry_msgs::TwistWithCovarianceStamped::ConstPtr& message) {
-    if (const std::optional<VelocityFix> fix = toVelocityFix(*message)) {
+    if (std::optional<VelocityFix> fix = toVelocityFix(*message)) {
+      fix->stamp += fix_stamp_offset_;
       merger_->push(*fix);
       proceed();
     }
@@ -207,9 +234,13 @@ class InitializerNodelet : public CoreNodelet {
     }
     if (isAccepted(verdict)) {
       useWhileSearching(sample);
+      watchWhenDone(sample);
     }
   }
-  void use(const WheelMotion& wheels) { useWhileSearching(wheels); }
+  void use(const WheelMotion& wheels) {
+    useWhileSearching(wheels);
+    watchWhenDone(wheels);
+  }
   void use(const AntennaFix& fix) { useWhileSearching(fix); }
 
   template <class CoreSample>
@@ -222,6 +253,14 @@ class InitializerNodelet : public CoreNodelet {
       done_ = true;
       announce(*initial, "done");
     }
+  }
+
+  template <class CoreSample>
+  void watchWhenDone(const CoreSample& sample) {
+    if (done_) {
+      initializer_->watch(sample);
+    }
+    noteProblem(initializer_->complaint());
   }
 
   /// Ends the estimate and looks for a start anew.
@@ -312,13 +351,19 @@ class InitializerNodelet : public CoreNodelet {
     if (!stamp_problem_.empty()) {
       status.mergeSummary(DiagnosticStatus::WARN, stamp_problem_);
     }
+    if (inputs_) {
+      report(*inputs_, fromSeconds(now()), status);
+    }
     status.add("restarts of the clock", session_);
     status.add("starts", starts_);
     status.add("samples with a wrong stamp", merger_ ? merger_->leftOut() : 0);
   }
 
   FrameNames frames_;
-  std::optional<ImuMount> mount_;
+  std::optional<ImuInput> imu_input_;
+  std::optional<HealthMonitor> inputs_;  ///< what was wrong with messages, in real time
+  std::string fix_topic_;
+  Nanoseconds fix_stamp_offset_ = 0;
   std::optional<WheelInput> wheel_input_;
   std::optional<ImuClock> clock_;
   std::optional<ImuScreen> screen_;
@@ -328,7 +373,6 @@ class InitializerNodelet : public CoreNodelet {
   TrustedStamp trusted_;
   std::optional<StampWatch> stamps_;
   std::string stamp_problem_;
-  std::string fix_topic_;
   StartState::ConstPtr running_;  ///< of the estimate that was there before this nodelet
   std::uint32_t session_ = 0;     ///< restarts of the IMU's clock
   std::uint32_t starts_ = 0;      ///< initial states announced, and searches begun anew

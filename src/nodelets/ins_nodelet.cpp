@@ -20,6 +20,7 @@
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
 #include "slipnav/ros/health_report.h"
+#include "slipnav/ros/imu_input.h"
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/latency_meter.h"
@@ -42,7 +43,7 @@ class InsNodelet : public CoreNodelet {
 
  private:
   void begin(const Config& config) override {
-    mount_.emplace(config.imu.mount);
+    imu_input_.emplace(config);
     clock_.emplace(config.imu.input.gap_factor);
     engine_.emplace(Planet::byName(config.planet), config.imu.input);
     health_.emplace(config.navigation().filter);
@@ -59,7 +60,14 @@ class InsNodelet : public CoreNodelet {
   void advertise(const Config&) override { steps_publisher_ = publisher<InsSteps>(kInsStepsTopic); }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
-    jumps_.push(toImuSample(*message, *mount_), [this](const ImuSample& passed) {
+    const std::optional<ImuSample> taken = imu_input_->take(*message);
+    if (!taken) {
+      ++rejected_;
+      health_->note(imu_input_->problem(), engine_->newestStamp());
+      NODELET_WARN_THROTTLE(10.0, "%s", imu_input_->problem().c_str());
+      return;
+    }
+    jumps_.push(*taken, [this](const ImuSample& passed) {
       sorter_.push(passed, [this](const ImuSample& sample) { correctStamp(sample); });
     });
     startIfDue();
@@ -207,7 +215,7 @@ class InsNodelet : public CoreNodelet {
     diagnosed_stamp_ = engine_ ? engine_->newestStamp() : 0;
   }
 
-  std::optional<ImuMount> mount_;
+  std::optional<ImuInput> imu_input_;
   Arrivals arrivals_;
   JumpFilter<ImuSample> jumps_;
   ImuSorter sorter_;

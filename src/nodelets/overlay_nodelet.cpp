@@ -21,6 +21,7 @@
 
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/imu_input.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/model_joints.h"
 #include "slipnav/ros/overlay_markers.h"
@@ -51,7 +52,7 @@ class OverlayNodelet : public CoreNodelet {
     map_ = config.frames.map;
     base_ = config.frames.base;
     planet_.emplace(Planet::byName(config.planet));
-    mount_.emplace(config.imu.mount);
+    imu_input_.emplace(config);
     wheel_input_.emplace(config);
     const MountParams& antenna = config.truth_mount;
     picture_.emplace(params_, config.truth, Vector3(antenna.x_m, antenna.y_m, antenna.z_m));
@@ -150,7 +151,11 @@ class OverlayNodelet : public CoreNodelet {
   void onErrorForecast(const ErrorForecast::ConstPtr& message) { messages_.error_forecast = message; }
   void onStop(const StopStatus::ConstPtr& message) { messages_.stop = message; }
 
-  void onImu(const sensor_msgs::Imu::ConstPtr& message) { picture_->wheelInput().add(toImuSample(*message, *mount_)); }
+  void onImu(const sensor_msgs::Imu::ConstPtr& message) {
+    if (const std::optional<ImuSample> sample = imu_input_->take(*message)) {
+      picture_->wheelInput().add(*sample);
+    }
+  }
 
   template <class Message>
   void onWheels(const boost::shared_ptr<const Message>& message) {
@@ -217,7 +222,7 @@ class OverlayNodelet : public CoreNodelet {
   std::string foreign_publisher_;  ///< of a transform that is this package's
   double foreign_transform_s_ = 0.0;
   std::optional<Planet> planet_;
-  std::optional<ImuMount> mount_;
+  std::optional<ImuInput> imu_input_;
   std::optional<WheelInput> wheel_input_;
   std::optional<DrivePicture> picture_;
   std::optional<OverlayMarkers> markers_;

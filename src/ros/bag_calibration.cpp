@@ -61,6 +61,9 @@ BagCalibration calibrateBag(const std::string& path, const Config& config, const
   CalibrationDrive drive = readDrive(reader, !truth_from_file);
   if (truth_from_file) {
     for (const RtklibSolution& solution : readRtklibPos(truth)) {
+      if (!solution.solved()) {
+        continue;
+      }
       drive.truth.push_back(toPositionFix(solution.fix));
     }
   }

@@ -1,5 +1,6 @@
 #include "slipnav/ros/bag_evaluation.h"
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <stdexcept>
@@ -25,6 +26,19 @@ class Stopwatch {
   std::clock_t cpu_ = std::clock();
   std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
 };
+
+/// The rows of an RTKLIB file that are solutions; the others are counted.
+void addTruthFrom(const std::string& path, Nanoseconds begin, OfflineRun& run, BagEvaluation& evaluation) {
+  for (const RtklibSolution& solution : readRtklibPos(path)) {
+    if (solution.solved()) {
+      run.addTruthFix(solution.fix);
+    } else {
+      Alarm& rows = evaluation.problems[path + " has rows of quality 0, without a solution: left out"];
+      rows.first = rows.last = begin;
+      ++rows.count;
+    }
+  }
+}
 
 void noteFindings(BagEvaluation& evaluation) {
   evaluation.report.metrics.problems = evaluation.problems;
@@ -76,6 +90,14 @@ void push(const Sample& sample, SampleMerger& merger, HealthMonitor& health) {
   }
 }
 
+void noteTruthLeftOut(BagEvaluation& evaluation) {
+  if (evaluation.report.metrics.truth_left_out > 0) {
+    const Nanoseconds begin = evaluation.begin;
+    evaluation.problems["truth rows far off the rows about them: left out"] = {
+        begin, begin, static_cast<std::uint64_t>(evaluation.report.metrics.truth_left_out)};
+  }
+}
+
 /// Feeds a recording to a run in the order of the stamps.
 void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluation& evaluation) {
   HealthMonitor health(reader.config().navigation().filter);  // of what does not reach the pipeline
@@ -105,19 +127,27 @@ void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluati
   }
   evaluation.alarms = run.pipeline().health().alarms();
   evaluation.alarms.insert(health.alarms().begin(), health.alarms().end());
-  evaluation.problems = problems.alarms();
+  evaluation.problems.insert(problems.alarms().begin(), problems.alarms().end());
   evaluation.alarms.insert(evaluation.problems.begin(), evaluation.problems.end());
+}
+
+/// "; what was wrong most often", or "".
+std::string mostFrequent(const Alarms& problems) {
+  const auto most = std::max_element(problems.begin(), problems.end(),
+                                     [](const auto& a, const auto& b) { return a.second.count < b.second.count; });
+  return most == problems.end() ? "" : "; " + most->first;
 }
 
 /// The report, or NoStart with what was wrong.
 void finish(const OfflineRun& run, const TruthAlignment& alignment, BagEvaluation& evaluation) {
   if (!run.hasEstimates()) {
-    const std::string failure = run.failure();
+    const std::string failure = run.failure() + mostFrequent(evaluation.problems);
     evaluation.report.metrics.verdict = "no start: " + failure;
     noteFindings(evaluation);
     throw NoStart(failure, std::move(evaluation));
   }
   evaluation.report = run.finish(alignment);
+  noteTruthLeftOut(evaluation);
   noteFindings(evaluation);
 }
 
@@ -136,9 +166,7 @@ BagEvaluation evaluateBag(const std::string& path, const Config& config, const s
     evaluation.odometry.add(std::move(message));
   });
   if (truth_from_file) {
-    for (const RtklibSolution& solution : readRtklibPos(truth)) {
-      run.addTruthFix(solution.fix);
-    }
+    addTruthFrom(truth, reader.begin(), run, evaluation);
   }
   feed(reader, !truth_from_file, run, evaluation);
   evaluation.begin = reader.begin();
@@ -156,6 +184,7 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   input.counters.imu_samples = report.metrics.imu_samples;
   input.counters.wheel_samples = report.metrics.wheel_samples;
   input.counters.rejected_samples = report.metrics.rejected_samples;
+  input.truth_left_out = report.metrics.truth_left_out;
   input.stops = {report.metrics.stops_seen, report.metrics.stops_used};
   RunReport result;
   result.estimates = estimates;

@@ -3,6 +3,7 @@
 #include <rosbag/chunked_file.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -40,6 +41,15 @@ std::vector<std::uint8_t> unpack(const std::string& method, std::vector<std::uin
   throw BagDamage("a chunk is packed in an unknown way");
 }
 
+const std::array<std::pair<std::string, std::string>, 2> kFormatsOfRos2 = {
+    {{"\x89MCAP", "MCAP"}, {"SQLite format", "SQLite3"}}};
+
+bool startsWith(const std::vector<std::uint8_t>& bytes, const std::string& magic) {
+  return bytes.size() >= magic.size() &&
+         std::equal(magic.begin(), magic.end(), bytes.begin(),
+                    [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
 BagFields takeFields(ByteReader& bytes) { return BagFields(bytes.part(bytes.number<std::uint32_t>())); }
 
 }  // namespace
@@ -58,6 +68,11 @@ BagFile::BagFile(const std::string& path) : path_(path), file_(path) {
 void BagFile::readAll() {
   const std::string first_line = kFirstLine;
   const std::vector<std::uint8_t> beginning = file_.take(first_line.size());
+  for (const auto& [magic, name] : kFormatsOfRos2) {
+    if (startsWith(beginning, magic)) {
+      fail("is a recording of ROS 2 (" + name + "); convert it to ROS 1, for example by rosbags-convert");
+    }
+  }
   if (!std::equal(beginning.begin(), beginning.end(), first_line.begin())) {
     throw BagDamage("it is of another format than 2.0");
   }

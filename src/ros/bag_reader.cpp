@@ -7,10 +7,12 @@
 #include <map>
 #include <stdexcept>
 
+#include "slipnav/config/text.h"
 #include "slipnav/navigator/stamp_watch.h"
 #include "slipnav/ros/bag_file.h"
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/extrinsics.h"
+#include "slipnav/ros/imu_input.h"
 #include "slipnav/ros/wheel_input.h"
 
 namespace slipnav {
@@ -133,7 +135,8 @@ struct BagReader::Parts {
   void takeExtrinsicsFromBag() {
     tf2::BufferCore buffer;
     for (const BagEntry& entry : bag.entries()) {
-      if (bare(bag.connection(entry).topic) != "tf_static") {
+      const std::string topic = bare(bag.connection(entry).topic);
+      if (topic != "tf_static" && topic != "tf") {
         continue;
       }
       const auto message = bag.read<tf2_msgs::TFMessage>(entry);
@@ -143,7 +146,7 @@ struct BagReader::Parts {
     }
     const std::string missing = takeExtrinsics(buffer, config.initialization.source == "gnss", config);
     if (!missing.empty()) {
-      fail(missing + " in /tf_static");
+      fail(missing + " in /tf_static and /tf");
     }
   }
 
@@ -175,13 +178,36 @@ struct BagReader::Parts {
       return std::pair(state, false);
     }
     const auto odometry = bag.read<nav_msgs::Odometry>(entry);
-    if (!toTruthSample(odometry)) {
+    const std::optional<TruthSample> sample = toTruthSample(odometry);
+    if (!sample) {
       return std::nullopt;
     }
     const InitializationParams& start = config.initialization;
     const LocalFrame frame(Planet::byName(config.planet),
                            {degToRad(start.latitude_deg), degToRad(start.longitude_deg), start.height_m});
-    return std::pair(toNavigationState(odometry, frame, config.imu.mount.position_b()), true);
+    return std::pair(toNavigationState(odometry, frame, config.imu.mount.position_b()),
+                     sample->q_flu_to_enu.has_value());
+  }
+
+  void dispatchImu(const BagEntry& entry, ImuInput& imu, StampWatch& stamps, const BagSink& sink) {
+    if (const std::optional<ImuSample> sample = imu.take(bag.read<sensor_msgs::Imu>(entry))) {
+      stamps.noteImu(sample->stamp);
+      sink.imu(*sample);
+    } else {
+      sink.problem(imu.problem(), entry.time);
+    }
+  }
+
+  void dispatchFix(const BagEntry& entry, StampWatch& stamps, const BagSink& sink) {
+    const auto message = bag.read<sensor_msgs::NavSatFix>(entry);
+    const std::string complaint = complaintOf(message, config.topics.gps_fix);
+    if (!complaint.empty()) {
+      sink.problem(complaint, entry.time);
+    } else if (std::optional<GnssFix> fix = toGnssFix(message)) {
+      fix->stamp += fromSeconds(config.initialization.fix_stamp_offset_s);
+      watch(entry, config.topics.gps_fix, fix->stamp, stamps, sink);
+      sink.fix(*fix);
+    }
   }
 
   static void watch(const BagEntry& entry, const std::string& topic, Nanoseconds stamp, StampWatch& stamps,
@@ -194,11 +220,15 @@ struct BagReader::Parts {
 
   template <class Message>
   void dispatchWheels(const BagEntry& entry, WheelInput& wheels, StampWatch& stamps, const BagSink& sink) {
-    if (const std::optional<WheelMotion> motion = wheels.take(bag.read<Message>(entry))) {
+    const std::optional<WheelMotion> motion = wheels.take(bag.read<Message>(entry));
+    for (const std::string& said : {wheels.problem(), wheels.remark()}) {
+      if (!said.empty()) {
+        sink.problem(said, entry.time);
+      }
+    }
+    if (motion) {
       watch(entry, wheels.topic(), motion->stamp, stamps, sink);
       sink.wheels(*motion);
-    } else if (!wheels.problem().empty()) {
-      sink.problem(wheels.problem(), entry.time);
     }
   }
 };
@@ -230,7 +260,7 @@ double BagReader::duration() const { return toSeconds(parts_->end - parts_->begi
 
 void BagReader::read(const BagSink& sink) const {
   const TopicNames& topics = parts_->config.topics;
-  const ImuMount mount(parts_->config.imu.mount);
+  ImuInput imu(parts_->config);
   WheelInput wheels(parts_->config);
   StampWatch stamps(topics.imu);
   bool start_wanted = parts_->config.initialization.source == "truth";
@@ -240,20 +270,16 @@ void BagReader::read(const BagSink& sink) const {
     }
     const std::string topic = bare(parts_->bag.connection(entry).topic);
     if (topic == bare(topics.imu)) {
-      const ImuSample sample = toImuSample(parts_->bag.read<sensor_msgs::Imu>(entry), mount);
-      stamps.noteImu(sample.stamp);
-      sink.imu(sample);
+      parts_->dispatchImu(entry, imu, stamps, sink);
     } else if (topic == bare(topics.joint_states) && wheels.wantsJointStates()) {
       parts_->dispatchWheels<sensor_msgs::JointState>(entry, wheels, stamps, sink);
     } else if (topic == bare(topics.wheel_odometry) && wheels.wantsOdometry()) {
       parts_->dispatchWheels<nav_msgs::Odometry>(entry, wheels, stamps, sink);
     } else if (topic == bare(topics.gps_fix)) {
-      if (const std::optional<GnssFix> fix = toGnssFix(parts_->bag.read<sensor_msgs::NavSatFix>(entry))) {
-        Parts::watch(entry, topics.gps_fix, fix->stamp, stamps, sink);
-        sink.fix(*fix);
-      }
+      parts_->dispatchFix(entry, stamps, sink);
     } else if (topic == bare(topics.gps_velocity)) {
-      if (const auto fix = toVelocityFix(parts_->bag.read<geometry_msgs::TwistWithCovarianceStamped>(entry))) {
+      if (auto fix = toVelocityFix(parts_->bag.read<geometry_msgs::TwistWithCovarianceStamped>(entry))) {
+        fix->stamp += fromSeconds(parts_->config.initialization.fix_stamp_offset_s);
         sink.velocity(*fix);
       }
     }
@@ -261,6 +287,12 @@ void BagReader::read(const BagSink& sink) const {
       parts_->dispatchTruth(entry, sink);
       const auto start = start_wanted ? parts_->truthStart(entry) : std::nullopt;
       if (start) {
+        if (!start->second) {
+          sink.problem("the truth has no attitude to start from: initialization.heading_deg is taken (" +
+                           formatNumber(parts_->config.initialization.heading_deg) + " deg, 1 sigma " +
+                           formatNumber(parts_->config.initialization.heading_std_deg) + " deg)",
+                       entry.time);
+        }
         sink.truth_start(start->first, start->second);
         start_wanted = false;
       }

@@ -53,6 +53,13 @@ Matrix3 swapEnuNed() {
   return m;
 }
 
+/// What receivers say before they know better.
+bool isNowhere(const sensor_msgs::NavSatFix& message) { return message.latitude == 0.0 && message.longitude == 0.0; }
+
+bool isOutOfRange(const sensor_msgs::NavSatFix& message) {
+  return std::abs(message.latitude) > 90.0 || std::abs(message.longitude) > 360.0;
+}
+
 Matrix3 covarianceOf(const sensor_msgs::NavSatFix& message) {
   const Matrix3 enu =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(message.position_covariance.data());
@@ -95,10 +102,26 @@ ImuSample toImuSample(const sensor_msgs::Imu& message, const ImuMount& mount) {
                       toVector(message.angular_velocity));
 }
 
+std::string noStamps(const std::string& topic) { return "stamps of " + topic + " are zero"; }
+
+std::string complaintOf(const sensor_msgs::NavSatFix& message, const std::string& topic) {
+  if (message.status.status < sensor_msgs::NavSatStatus::STATUS_FIX) {
+    return "";
+  }
+  if (isNowhere(message)) {
+    return topic + " is at latitude 0, longitude 0 with a good status: the receiver has no fix yet";
+  }
+  if (isOutOfRange(message)) {
+    return topic + " has a latitude or longitude that is out of range: degrees are wanted";
+  }
+  return message.header.stamp.isZero() ? noStamps(topic) : "";
+}
+
 std::optional<GnssFix> toGnssFix(const sensor_msgs::NavSatFix& message) {
   const bool finite =
       std::isfinite(message.latitude) && std::isfinite(message.longitude) && std::isfinite(message.altitude);
-  if (message.status.status < sensor_msgs::NavSatStatus::STATUS_FIX || !finite) {
+  if (message.status.status < sensor_msgs::NavSatStatus::STATUS_FIX || !finite || isNowhere(message) ||
+      isOutOfRange(message)) {
     return std::nullopt;
   }
   return GnssFix{toNanoseconds(message.header.stamp), message.latitude, message.longitude, message.altitude,
@@ -154,9 +177,9 @@ EstimateSample toEstimateSample(const nav_msgs::Odometry& message) {
 
 NavigationState toNavigationState(const nav_msgs::Odometry& message, const LocalFrame& origin,
                                   const Vector3& imu_position_b) {
-  const geometry_msgs::Quaternion& q = message.pose.pose.orientation;
-  const Matrix3 C_b_to_enu =
-      Quaternion(q.w, q.x, q.y, q.z).normalized().toRotationMatrix() * Vector3(1.0, -1.0, -1.0).asDiagonal();
+  const std::optional<TruthSample> pose = toTruthSample(message);
+  const Quaternion q = pose && pose->q_flu_to_enu ? *pose->q_flu_to_enu : Quaternion::Identity();
+  const Matrix3 C_b_to_enu = q.toRotationMatrix() * Vector3(1.0, -1.0, -1.0).asDiagonal();
   NavigationState state;
   state.stamp = toNanoseconds(message.header.stamp);
   state.position = origin.toGeodetic(toVector(message.pose.pose.position) + C_b_to_enu * imu_position_b);

@@ -22,13 +22,14 @@ WheelMotion WheelInput::atEndOfInterval(WheelMotion wheels) const {
 /// A sample without a time is of no use, and the cause of its absence is not seen otherwise.
 bool WheelInput::isStamped(const std_msgs::Header& header, const std::string& topic) {
   if (header.stamp.isZero()) {
-    problem_ = "stamps of " + topic + " are zero";
+    problem_ = noStamps(topic);
   }
   return problem_.empty();
 }
 
 std::optional<WheelMotion> WheelInput::take(const sensor_msgs::JointState& message) {
   problem_.clear();
+  remark_.clear();
   if (!wantsJointStates() || !isStamped(message.header, joint_topic_)) {
     return std::nullopt;
   }
@@ -36,6 +37,9 @@ std::optional<WheelMotion> WheelInput::take(const sensor_msgs::JointState& messa
       decoder_.decode({toNanoseconds(message.header.stamp), message.name, message.position, message.velocity});
   if (!decoder_.problem().empty()) {
     problem_ = joint_topic_ + " " + decoder_.problem();
+  }
+  if (!decoder_.remark().empty()) {
+    remark_ = joint_topic_ + " " + decoder_.remark();
   }
   if (!sample) {
     return std::nullopt;
@@ -46,6 +50,7 @@ std::optional<WheelMotion> WheelInput::take(const sensor_msgs::JointState& messa
 
 std::optional<WheelMotion> WheelInput::take(const nav_msgs::Odometry& message) {
   problem_.clear();
+  remark_.clear();
   if (!wantsOdometry() || joints_heard_ || !isStamped(message.header, odometry_topic_)) {
     return std::nullopt;
   }

@@ -60,8 +60,26 @@ TEST(Conversions, FixesThatAreNoneAreLeftOut) {
   EXPECT_FALSE(toGnssFix(message));
 }
 
+TEST(Conversions, FixesThatCannotBeAreNamed) {
+  sensor_msgs::NavSatFix message;
+  message.header.stamp = ros::Time(5, 0);
+  EXPECT_FALSE(toGnssFix(message));
+  EXPECT_EQ(complaintOf(message, "gps/fix"),
+            "gps/fix is at latitude 0, longitude 0 with a good status: the receiver has no fix yet");
+  message.latitude = 39.7e7;
+  EXPECT_FALSE(toGnssFix(message));
+  EXPECT_NE(complaintOf(message, "gps/fix").find("out of range"), std::string::npos);
+  message.latitude = 39.7;
+  EXPECT_EQ(complaintOf(message, "gps/fix"), "");
+  message.header.stamp = ros::Time();
+  EXPECT_NE(complaintOf(message, "gps/fix").find("are zero"), std::string::npos);
+  message.status.status = sensor_msgs::NavSatStatus::STATUS_NO_FIX;
+  EXPECT_EQ(complaintOf(message, "gps/fix"), "");
+}
+
 TEST(Conversions, AFixWithoutCovarianceIsAMatterOfMetres) {
   sensor_msgs::NavSatFix message;
+  message.latitude = 39.7;
   message.position_covariance_type = sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
   EXPECT_EQ(toGnssFix(message)->covariance_ned_m2.diagonal(), Vector3(25.0, 25.0, 100.0));
 }

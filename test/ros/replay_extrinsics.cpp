@@ -56,7 +56,7 @@ TEST(Extrinsics, ARecordingWithoutThemIsRefused) {
     BagReader(bag.path(), config);
     FAIL() << "was taken";
   } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(error.what(), bag.path() + ": no transform base_link → imu_link in /tf_static");
+    EXPECT_EQ(error.what(), bag.path() + ": no transform base_link → imu_link in /tf_static and /tf");
   }
 }
 

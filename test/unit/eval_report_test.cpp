@@ -205,6 +205,7 @@ TEST(MetricsJson, holdsEveryKeyInOrder) {
             "  \"final_pct\": null,\n"
             "  \"stops_seen\": 0,\n"
             "  \"stops_used\": 0,\n"
+            "  \"truth_left_out\": 0,\n"
             "  \"verdict\": \"\",\n"
             "  \"problems\": [],\n"
             "  \"alarms\": []\n"

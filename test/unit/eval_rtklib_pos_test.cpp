@@ -157,6 +157,32 @@ TEST(RtklibPos, namesFileAndLineOfWhatItCannotRead) {
             "x.pos:1: the header names 4 columns, fewer than 12");
 }
 
+TEST(RtklibPos, refusesHeightsAboveTheGeoid) {
+  try {
+    parse("% (lat/lon/height=WGS84/geodetic,Q=1:fix,ns=# of satellites)\n");
+    FAIL() << "geodetic heights were taken for ellipsoidal ones";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("heights are geodetic"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(parse("% (lat/lon/height=WGS84/ellipsoidal,Q=1:fix,ns=# of satellites)\n").empty());
+}
+
+TEST(RtklibPos, marksEpochsWithoutSolution) {
+  const auto solutions = parse(std::string(kDegreesHeader) +
+                               "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n"
+                               "2020/10/15 15:00:18.100 0 0 0 0 0 0 0 0 0 0 0 0 0\n");
+  ASSERT_EQ(solutions.size(), 2U);
+  EXPECT_TRUE(solutions[0].solved());
+  EXPECT_FALSE(solutions[1].solved());
+}
+
+TEST(RtklibPos, isKnownByItsEndingInAnyCase) {
+  EXPECT_TRUE(isRtklibFile("X.POS"));
+  EXPECT_TRUE(isRtklibFile("x.pos"));
+  EXPECT_FALSE(isRtklibFile("truth/fix"));
+  EXPECT_FALSE(isRtklibFile(".pos"));
+}
+
 TEST(RtklibPos, readsFilesAndNamesMissingOnes) {
   const std::string path = ::testing::TempDir() + "slipnav_rtklib_test.pos";
   std::ofstream(path) << kDegreesHeader << "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0";

@@ -112,9 +112,92 @@ TEST_F(WheelDecoderTest, AMessageThatCannotBeUsedLeavesItAsItWas) {
   decode(kSecond, {"left", "right"}, {1.0, 1.0}, {});
   decode(2 * kSecond, {"left", "right"}, {std::numeric_limits<double>::infinity(), 1.0}, {});
   decode(2 * kSecond, {"left"}, {1.0}, {});
-  const auto sample = decode(3 * kSecond, {"left", "right"}, {5.0, 1.0}, {});
+  const auto sample = decode(3 * kSecond, {"left", "right"}, {4.0, 1.0}, {});
   ASSERT_TRUE(sample);
-  EXPECT_NEAR(sample->rate_radps[0], 2.0, 1e-12);  // since the last good one, two seconds before
+  EXPECT_NEAR(sample->rate_radps[0], 1.5, 1e-12);  // since the last good one, two seconds before
+}
+
+/// An encoder whose position wraps at ±π, turning at 7 rad/s, read five times a second.
+TEST_F(WheelDecoderTest, UnwrapsPositionsThatStayWithinOneTurn) {
+  for (const double offset_rad : {0.0, kPi}) {  // -π to π, and 0 to 2π
+    WheelDecoder decoder(twoWheels(), kMaxSpeed_mps);
+    for (int i = 0; i < 40; ++i) {
+      const double angle_rad = std::remainder(1.4 * i - offset_rad, 2.0 * kPi) + offset_rad;
+      const Names names = {"left", "right"};
+      const Values position = {angle_rad, 0.0};
+      const auto sample = decoder.decode({fromSeconds(0.2 * i), names, position, {}});
+      EXPECT_EQ(decoder.problem(), "");
+      if (i > 0) {
+        ASSERT_TRUE(sample);
+        EXPECT_NEAR(sample->rate_radps[0], 7.0, 1e-9);
+      }
+    }
+  }
+}
+
+/// Positions that go on and on may move by more than half a turn between messages.
+TEST_F(WheelDecoderTest, LeavesPositionsAloneThatGoBeyondOneTurn) {
+  const Names names = {"left", "right"};
+  decode(fromSeconds(1.0), names, {10.0, 0.0}, {});
+  const auto sample = decode(fromSeconds(1.2), names, {15.0, 0.0}, {});
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->rate_radps[0], 25.0, 1e-9);
+}
+
+TEST_F(WheelDecoderTest, UsesPositionsWhereVelocitiesAreAlwaysZero) {
+  const Names names = {"left", "right"};
+  int remarks = 0;
+  std::optional<WheelSample> sample;
+  for (int i = 0; i < 20; ++i) {
+    sample = decode(fromSeconds(0.1 * i), names, {0.1 * i, -0.1 * i}, {0.0, 0.0});
+    remarks += decoder_.remark().empty() ? 0 : 1;
+  }
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->rate_radps[0], 1.0, 1e-9);
+  EXPECT_NEAR(sample->rate_radps[1], 1.0, 1e-9);
+  EXPECT_EQ(remarks, 1);
+}
+
+TEST_F(WheelDecoderTest, KeepsVelocitiesThatAreZeroAtRestOnly) {
+  const Names names = {"left", "right"};
+  decode(fromSeconds(0.1), names, {0.0, 0.0}, {1.0, -1.0});
+  std::optional<WheelSample> sample;
+  for (int i = 2; i < 20; ++i) {
+    sample = decode(fromSeconds(0.1 * i), names, {0.1 * i, -0.1 * i}, {0.0, 0.0});
+  }
+  ASSERT_TRUE(sample);
+  EXPECT_EQ(sample->rate_radps[0], 0.0);
+}
+
+TEST_F(WheelDecoderTest, UsesPositionsWhereVelocitiesAreNoNumbers) {
+  const Names names = {"left", "right"};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(decode(fromSeconds(1.0), names, {0.0, 0.0}, {nan, nan}));
+  EXPECT_NE(decoder_.remark(), "");
+  const auto sample = decode(fromSeconds(1.1), names, {0.1, -0.1}, {nan, nan});
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->rate_radps[0], 1.0, 1e-9);
+  EXPECT_EQ(decoder_.remark(), "");
+}
+
+TEST_F(WheelDecoderTest, IsQuietAboutTheJointsOfOthers) {
+  EXPECT_FALSE(decode(1, {"shoulder", "elbow"}, {}, {1.0, 2.0}));
+  EXPECT_EQ(decoder_.problem(), "");
+  EXPECT_TRUE(decode(2, {"left", "right"}, {}, {1.0, 2.0}));
+  for (int i = 0; i < 100; ++i) {
+    EXPECT_FALSE(decode(3 + i, {"shoulder", "elbow"}, {}, {1.0, 2.0}));
+    EXPECT_EQ(decoder_.problem(), "");
+  }
+  EXPECT_TRUE(decode(200, {"left", "right"}, {}, {1.0, 2.0}));
+}
+
+TEST_F(WheelDecoderTest, SaysThatNoMessageHasTheWheels) {
+  std::string problem;
+  for (int i = 0; i < 30; ++i) {
+    decode(1 + i, {"shoulder", "elbow"}, {}, {1.0, 2.0});
+    problem = decoder_.problem();
+  }
+  EXPECT_EQ(problem, "has no joint 'left'");
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ struct MetricsInput {
   PlanarTrack wheel_only;   ///< the baseline; may be empty
   std::optional<double> no_zupt_error_pct;
   StopCounts stops;
-  bool uses_stops = true;  ///< zero-velocity updates are part of the run
+  std::int64_t truth_left_out = 0;  ///< rows of truth that are not in `truth`
+  bool uses_stops = true;           ///< zero-velocity updates are part of the run
   RunCounters counters;
 };
 
@@ -79,6 +80,7 @@ struct Metrics {
   std::optional<double> forecast_ms_p99;
   std::optional<double> cpu_s;
   std::optional<double> realtime_factor;
+  std::int64_t truth_left_out = 0;  ///< rows of truth far off the rows about them, see withoutJumps()
   std::optional<double> final_pct;  ///< 100·horizontal_final_m/D
   std::int64_t stops_seen = 0;      ///< standstills by wheels and IMU, see StopLedger
   std::int64_t stops_used = 0;      ///< of these, with an accepted zero-velocity update

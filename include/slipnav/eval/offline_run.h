@@ -52,7 +52,7 @@ class OfflineRun {
  private:
   void record(const Estimate& estimate, const ErrorCovariance& P);
   void startWheelOnly(const Output& out);
-  TruthTrack truthTrack(const TruthAlignment& alignment) const;
+  TruthTrack truthTrack(const TruthAlignment& alignment, MetricsInput& input) const;
   std::optional<double> slipOf(const Estimate& estimate) const;
 
   Config config_;

@@ -2,7 +2,8 @@
 /// Finds where to start: levels, finds the heading, and hands over state and covariance at a definite stamp.
 ///
 /// Sources:
-///   gnss    rest (levelling, gyro bias), then a short straight drive under satellite positions; what is recorded is
+///   gnss    rest (levelling, gyro bias), then a drive under satellite positions that gives the heading; what is
+///   recorded is
 ///           run through the filter itself, so that the covariance handed over holds every correlation
 ///   given   position and heading from the parameters, levelled from the first seconds
 ///   motion  position zero, heading from the parameters, levelled from the first seconds even when moving
@@ -15,6 +16,8 @@
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/ins/ins_engine.h"
+#include "slipnav/navigator/drive_fit.h"
+#include "slipnav/navigator/input_check.h"
 #include "slipnav/navigator/start_recording.h"
 
 namespace slipnav {
@@ -34,6 +37,7 @@ struct InitializationParams {
   double levelling_window_s = 10.0;
   double moving_level_std_deg = 1.0;
   double moving_speed_std_mps = 0.1;
+  double fix_stamp_offset_s = 0.0;
   std::vector<double> gyro_bias_deg_per_h = {0.0, 0.0, 0.0};
   std::vector<double> accel_bias_ug = {0.0, 0.0, 0.0};
   void visit(ParameterVisitor& v);
@@ -49,10 +53,16 @@ class Initializer {
   void reset();
 
   /// Samples in order of stamp, of all sensors together.
-  template <class Sample>
-  void push(const Sample& sample) {
-    recording_.push(sample);
-  }
+  void push(const ImuSample& sample);
+  void push(const WheelMotion& wheels);
+  void push(const AntennaFix& fix) { recording_.push(fix); }
+
+  /// The same once there is a start: only complaint() looks on.
+  void watch(const ImuSample& sample) { check_.push(sample); }
+  void watch(const WheelMotion& wheels) { check_.push(wheels); }
+
+  /// What makes the samples useless, in one line with cause and remedy; "" while nothing does. No start is found then.
+  const std::string& complaint() const { return check_.complaint().empty() ? clock_complaint_ : check_.complaint(); }
   /// The state for the source `truth`. Without attitude, it is levelled and takes the configured heading.
   void setTruth(const NavigationState& truth, bool has_attitude);
 
@@ -72,10 +82,18 @@ class Initializer {
   std::optional<InitialState> fromDrive() const;
   std::optional<InitialState> fromWindow() const;
   std::optional<InitialState> fromTruth() const;
-  std::optional<PositionFix> startFix(Nanoseconds begin) const;
-  std::optional<PositionFix> endFix(const PositionFix& start) const;
-  double headingOfDrive(const PositionFix& start, const PositionFix& end, bool at_rest) const;
+  /// Up to where a drive is known: stamps of a fix and of the first IMU sample from it on.
+  struct DriveEnd {
+    Nanoseconds fix = 0;
+    Nanoseconds imu = 0;
+  };
+
+  std::optional<DriveEnd> newestKnownFix() const;
+  std::optional<DriveFit> fitOfDrive(Nanoseconds begin, Nanoseconds end, bool at_rest) const;
+  InitialState beginOfDrive(Nanoseconds begin, const DriveFit& fit, bool at_rest) const;
   InitialState levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const;
+  void levelAtRestInto(const ImuSample& mean, double heading_rad, InitialState& initial) const;
+  void levelOnTheMoveInto(Nanoseconds begin, Nanoseconds end, double heading_rad, InitialState& initial) const;
   InitialState runFilter(const InitialState& start, Nanoseconds until) const;
 
   Planet planet_;
@@ -84,6 +102,9 @@ class Initializer {
   FilterSetup setup_;
   ErrorVector prior_variance_;
   StartRecording recording_;
+  InputCheck check_;
+  mutable Nanoseconds judged_fix_ = 0;   ///< the drive up to there has been looked at
+  mutable std::string clock_complaint_;  ///< fixes that are stamped by another clock
   std::optional<NavigationState> truth_;
   bool truth_has_attitude_ = false;
 };

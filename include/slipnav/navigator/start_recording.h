@@ -17,12 +17,14 @@ struct Rest {
   bool over = false;  ///< the vehicle has moved on
 };
 
-/// Keeps samples from the newest standstill on that was long enough, or all of them.
+/// Keeps samples from the newest standstill on that was long enough, or the newest ones.
 class StartRecording {
  public:
   /// @param gravity_mps2 about what it is here
   /// @param min_rest_s a shorter standstill is forgotten; @param max_rest_s of a longer one the end is kept
-  StartRecording(const StationaryParams& stationary, double gravity_mps2, double min_rest_s, double max_rest_s);
+  /// @param accel_bias_b, gyro_bias_b what is known of the biases before: a bias is no motion
+  StartRecording(const StationaryParams& stationary, double gravity_mps2, double min_rest_s, double max_rest_s,
+                 const Vector3& accel_bias_b = Vector3::Zero(), const Vector3& gyro_bias_b = Vector3::Zero());
 
   void clear();
   void retune(const StationaryParams& stationary) { detector_.retune(stationary); }
@@ -37,7 +39,7 @@ class StartRecording {
   const std::vector<PositionFix>& fixes() const { return fixes_; }
   const std::vector<VelocityFix>& velocityFixes() const { return velocity_fixes_; }
   const Rest& rest() const { return rest_; }
-  bool restIsLongEnough() const { return toSeconds(rest_.end - rest_.begin) >= min_rest_s_; }
+  bool restIsLongEnough() const { return isLongEnough(rest_); }
 
   /// Stamp of the first IMU sample at or after `stamp`.
   std::optional<Nanoseconds> firstImuStampFrom(Nanoseconds stamp) const;
@@ -49,18 +51,25 @@ class StartRecording {
   double speedAt(Nanoseconds stamp) const;
 
  private:
+  bool isLongEnough(const Rest& rest) const { return toSeconds(rest.end - rest.begin) >= min_rest_s_; }
   void trackRest(const WheelMotion& wheels);
+  void trackNextRest(bool at_rest, Nanoseconds stamp);
+  void forgetOld();
   void forgetBefore(Nanoseconds stamp);
+  void dropBefore(Nanoseconds stamp);
 
   double gravity_mps2_;
   double min_rest_s_;
   double max_rest_s_;
+  Vector3 accel_bias_b_;
+  Vector3 gyro_bias_b_;
   StationaryDetector detector_;
   std::vector<ImuSample> imu_;
   std::vector<WheelMotion> wheels_;
   std::vector<PositionFix> fixes_;
   std::vector<VelocityFix> velocity_fixes_;
   Rest rest_;
+  Rest next_;  ///< a standstill after rest_, not yet long enough to take its place
 };
 
 }  // namespace slipnav

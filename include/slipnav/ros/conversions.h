@@ -37,8 +37,15 @@ inline ros::Time toRosTime(Nanoseconds stamp) {
 
 ImuSample toImuSample(const sensor_msgs::Imu& message, const ImuMount& mount);
 
-/// Nothing for a message without a fix or with numbers that are not finite. Where the receiver does not know its
-/// covariance, 5 m horizontally and 10 m vertically (1σ) are taken.
+/// What is wrong with a topic whose header.stamp is zero.
+std::string noStamps(const std::string& topic);
+
+/// What is wrong with a fix that claims to be one, in one line that names its topic; "" when nothing, and without a
+/// fix.
+std::string complaintOf(const sensor_msgs::NavSatFix& message, const std::string& topic);
+
+/// Nothing for a message without a fix, with something to complain of, or with numbers that are not finite. Where the
+/// receiver does not know its covariance, 5 m horizontally and 10 m vertically (1σ) are taken.
 std::optional<GnssFix> toGnssFix(const sensor_msgs::NavSatFix& message);
 
 /// Linear velocity of the antenna, east, north, up. Nothing when it is not finite. Where the receiver does not know its

@@ -30,6 +30,9 @@ class WheelInput {
   /// The topic that samples are taken from.
   const std::string& topic() const { return joints_heard_ ? joint_topic_ : odometry_topic_; }
 
+  /// What is to be said once about the messages, with the first one that shows it; else "".
+  const std::string& remark() const { return remark_; }
+
   bool wantsJointStates() const { return source_ != "wheel_odometry"; }
   bool wantsOdometry() const { return source_ != "joint_states"; }
 
@@ -45,6 +48,7 @@ class WheelInput {
   std::string odometry_topic_;
   bool joints_heard_ = false;
   std::string problem_;
+  std::string remark_;
 };
 
 }  // namespace slipnav
