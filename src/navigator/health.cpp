@@ -93,8 +93,11 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
   }
   for (int i = 0; i < kComponents; ++i) {
     const Component component = static_cast<Component>(i);
-    const Nanoseconds since = filter.status(component).rejected_since;
-    if (since != 0 && toSeconds(now - since) > kRejected_s) {
+    const ComponentStatus& status = filter.status(component);
+    const bool rejected_again =
+        status.rejected != std::exchange(rejected_[static_cast<std::size_t>(i)], status.rejected);
+    // What is not measured any more contradicts nothing.
+    if (rejected_again && status.rejected_since != 0 && toSeconds(now - status.rejected_since) > kRejected_s) {
       note(std::string(componentName(component)) + " contradicts", now);
     }
   }

@@ -56,5 +56,29 @@ TEST(HealthMonitor, SilentAndContradictingWheelsAreNoticed) {
   EXPECT_GE(health.alarms().at("wheels silent").first, silent_from);
 }
 
+/// A measurement that was rejected for long and is not made any more contradicts nothing.
+TEST(HealthMonitor, WhatIsNotMeasuredContradictsNothing) {
+  const Config config = driveConfig(6.0);
+  const RecordedDrive drive = recordDrive(config);
+  const NavigationSetup setup = config.navigation();
+  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
+  navigator.initialise(drive.initial);
+  HealthMonitor health(setup.filter);
+  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  const Nanoseconds wrong_from = drive.samples.back().stamp() - 9 * kSecond;  // driving
+  const Nanoseconds silent_from = drive.samples.back().stamp() - 7 * kSecond;
+  for (DriveSample sample : drive.samples) {
+    if (sample.is_imu) {
+      navigator.push(sample.imu, ignore);
+    } else if (sample.stamp() < silent_from) {
+      sample.wheels.motion.yaw_rate_radps += sample.stamp() > wrong_from ? 3.0 : 0.0;
+      navigator.push(sample.wheels, ignore);
+    }
+    health.noteFilter(navigator.filter());
+  }
+  ASSERT_EQ(health.alarms().count("yaw_rate contradicts"), 1U);
+  EXPECT_LT(health.alarms().at("yaw_rate contradicts").last, silent_from + kSecond);
+}
+
 }  // namespace
 }  // namespace slipnav::test

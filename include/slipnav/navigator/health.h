@@ -1,6 +1,7 @@
 #pragma once
 /// What is wrong with the sensors or the filter, by name: one wording for diagnostics, logs and the fault campaign.
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -52,6 +53,7 @@ class HealthMonitor {
  private:
   double max_wheel_interval_s_;
   std::vector<std::string> wheel_names_;
+  std::array<std::uint64_t, kComponents> rejected_ = {};  ///< when the filter was looked at last
   Nanoseconds newest_wheels_ = 0;
   StampFaults stamp_faults_;  ///< as noted last
   std::map<std::string, double> sizes_;
