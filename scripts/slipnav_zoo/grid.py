@@ -11,6 +11,7 @@ HEADS = ["m/s", "encoders Hz", "IMU Hz", "world", "grade", "stamps", "ENU %", "N
 
 SPEEDS_MPS = (0.04, 0.1, 0.8, 3.0)
 DISTANCES_M = {0.04: 8.0, 0.1: 20.0, 0.8: 120.0, 3.0: 400.0}
+SLOW_MPS = 0.5  # the start takes minutes: it needs no more fixes than a fast one
 ENCODERS_HZ = (2, 10, 100)
 IMU_HZ = (50, 200, 1000)
 WORLDS = ("paved", "rough", "sand", "slope_firm")
@@ -35,6 +36,8 @@ def settings(cell):
     speed, encoders, imu, _, _, jitter = cell
     listed = [f"simulator.drive.speed_mps={speed:g}", f"simulator.drive.distance_m={DISTANCES_M[speed]:g}",
               f"simulator.encoder.rate_hz={encoders}", f"simulator.imu.rate_hz={imu}"]
+    if speed < SLOW_MPS:
+        listed.append("simulator.gps.rate_hz=1")
     if jitter:
         listed += [f"simulator.{sensor}.host_stamps.noise_s={jitter:g}" for sensor in ("imu", "encoder")]
     return tuple(listed)

@@ -2,7 +2,7 @@
 
 
 def number(value, digits=2):
-    """At most so many decimals, fewer for large numbers; a dash where there is none."""
+    """So many decimals, fewer for large numbers; a dash where there is none."""
     if value is None or value != value:
         return "-"
     if abs(value) >= 1000:
@@ -14,9 +14,10 @@ def markdown(heads, rows):
     widths = [max(len(line[column]) for line in [heads] + rows) for column in range(len(heads))]
 
     def text(cells):
-        padded = [cells[0].ljust(widths[0])] + [cell.rjust(width) for cell, width in zip(cells[1:], widths[1:])]
-        return "| " + " | ".join(padded).rstrip() + " |"
+        middle = [cell.rjust(width) for cell, width in zip(cells[1:-1], widths[1:-1])]
+        return "| " + " | ".join([cells[0].ljust(widths[0])] + middle + [cells[-1]]) + " |"
 
+    widths[-1] = len(heads[-1])  # of any length: names of alarms
     ruled = "|" + "|".join("-" * (width + 2) for width in widths) + "|"
     return "\n".join([text(heads), ruled] + [text(row) for row in rows])
 
