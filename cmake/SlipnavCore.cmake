@@ -1,7 +1,7 @@
 # slipnav_core: everything under src/ except the folders that know ROS or hold a main().
 
 file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/*.cpp")
-list(FILTER core_sources EXCLUDE REGEX "/src/(ros|nodelets|tools)/")
+list(FILTER core_sources EXCLUDE REGEX "/src/(ros|nodelets|rviz|tools)/")
 
 add_library(slipnav_core SHARED ${core_sources})
 slipnav_configure_target(slipnav_core)

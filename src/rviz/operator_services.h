@@ -1,0 +1,52 @@
+#pragma once
+/// The services behind the panel's buttons, called without keeping the window waiting.
+
+#include <ros/node_handle.h>
+
+#include <deque>
+#include <functional>
+#include <future>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace slipnav {
+
+/// Names relative to the namespace of the nodelets.
+inline constexpr const char* kStopNowService = "stop_supervisor/stop_now";
+inline constexpr const char* kOverrideService = "stop_supervisor/override";
+inline constexpr const char* kEmergencyStopService = "stop_supervisor/emergency_stop";
+inline constexpr const char* kInitialiseService = "initializer/initialise";
+inline constexpr const char* kCheckpointService = "filter/save_checkpoint";
+inline constexpr const char* kSupervisorParameters = "stop_supervisor/set_parameters";
+inline constexpr const char* kForecastParameters = "forecast/set_parameters";
+
+/// One call after the other, none left out, and one look at what there is, each in a thread of its own.
+class OperatorServices {
+ public:
+  explicit OperatorServices(const std::string& name_space) : node_(name_space) {}
+
+  void trigger(const std::string& service);
+  void set(const std::string& service, bool on);
+  /// Changes one parameter by dynamic_reconfigure.
+  void tune(const std::string& service, const std::string& key, const std::string& text);
+  void tune(const std::string& service, const std::string& key, double value);
+
+  /// Starts a look at which services are there, unless one is under way.
+  void look();
+  /// As of the last look that is done.
+  bool isThere(const std::string& service);
+  /// What the last call has answered, once; nothing as long as it has not.
+  std::optional<std::string> answer();
+
+ private:
+  void start(std::function<std::string()> call);
+
+  ros::NodeHandle node_;
+  std::future<std::string> call_;
+  std::deque<std::function<std::string()>> waiting_;
+  std::future<std::set<std::string>> look_;
+  std::set<std::string> there_;
+};
+
+}  // namespace slipnav
