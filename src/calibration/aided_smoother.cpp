@@ -76,7 +76,7 @@ class AidedSmoother::ForwardPass {
         config_(config),
         strapdown_(planet),
         dynamics_(planet, config.imu.noise, config.vehicle),
-        detector_(config.stationary),
+        detector_(config.stationary, imuFloor(config.imu.noise)),
         lever_to_truth_b_(config.truth_mount.position_b() - config.imu.mount.position_b()),
         variance_factor_(variance_factor),
         gate_(chiSquareQuantile(3, config.filter.gate_alpha)),
@@ -131,7 +131,7 @@ class AidedSmoother::ForwardPass {
     detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
     const double duration_s = std::exchange(turned_s_, 0.0);
     const Vector3 turned_rad = std::exchange(turned_rad_, Vector3::Zero());
-    if (duration_s <= 0.0 || !detector_.isStationary(planet_.gravity_n(state_.nav.position).norm())) {
+    if (duration_s <= 0.0 || !detector_.judge(planet_.gravity_n(state_.nav.position).norm())) {
       return false;
     }
     BodyMotion motion;

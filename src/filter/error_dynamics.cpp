@@ -54,18 +54,25 @@ void ImuNoiseParams::visit(ParameterVisitor& v) {
            "1σ of the scale factor error of the gyro about the vertical axis [ppm]");
 }
 
+ImuFloor imuFloor(const ImuNoiseParams& params) {
+  return {square(params.accel_noise_mps_per_sqrt_h) / kSecondsPerHour,
+          square(degToRad(params.gyro_noise_deg_per_sqrt_h)) / kSecondsPerHour, params.accel_bias_std_ug * kMicroG,
+          degPerHourToRadps(params.gyro_bias_std_deg_per_h)};
+}
+
 void VehicleModelParams::visit(ParameterVisitor& v) {
   v.number("wheel_scale_std", wheel_scale_std, {0.0, 1.0}, "1σ of the relative error of the wheel radii");
-  v.number("slow_slip_std", slow_slip_std, {0.0, 1.0}, "1σ of the slip ratio that persists");
-  v.number("slow_slip_time_s", slow_slip_time_s, {1e-2, 1e5}, "time constant of the persistent slip [s]");
-  v.number("fast_slip_std", fast_slip_std, {0.0, 1.0}, "1σ of the slip ratio that changes within seconds");
-  v.number("fast_slip_time_s", fast_slip_time_s, {1e-2, 1e5}, "time constant of the fast slip [s]");
-  v.number("slip_impulse_std", slip_impulse_std, {0.0, 1.0},
-           "1σ of the slip ratio after a wheel speed that the filter rejects: a wheel has lost its grip");
-  v.number("slip_impulse_time_s", slip_impulse_time_s, {0.0, 60.0},
-           "how long the wheel speed is left out after that [s]");
-  v.number("side_slip_std_deg", side_slip_std_deg, {0.0, 45.0}, "1σ of the side-slip angle [°]");
-  v.number("side_slip_time_s", side_slip_time_s, {1e-2, 1e5}, "time constant of the side slip [s]");
+  v.number("slow_slip_std", slow_slip_std, {0.0, 1.0},
+           "1σ of the slip ratio that persists over tens of meters, before anything is learned");
+  v.number("slow_slip_length_m", slow_slip_length_m, {1e-2, 1e5}, "correlation length of the persistent slip [m]");
+  v.number("slope_slip", slope_slip, {0.0, 1.0},
+           "1σ of the persistent slip, and of the tangent of the side slip, per sine of the slope");
+  v.number("fast_slip_std", fast_slip_std, {0.0, 1.0},
+           "1σ of the slip ratio that changes within a meter, before anything is learned");
+  v.number("fast_slip_length_m", fast_slip_length_m, {1e-2, 1e5}, "correlation length of the fast slip [m]");
+  v.number("side_slip_std_deg", side_slip_std_deg, {0.0, 45.0},
+           "1σ of the side-slip angle, before anything is learned [°]");
+  v.number("side_slip_length_m", side_slip_length_m, {1e-2, 1e5}, "correlation length of the side slip [m]");
   v.number("mount_pitch_std_deg", mount_pitch_std_deg, {0.0, 10.0}, "1σ of the IMU's mounting error in pitch [°]");
   v.number("mount_yaw_std_deg", mount_yaw_std_deg, {0.0, 10.0}, "1σ of the IMU's mounting error in yaw [°]");
 }
@@ -83,8 +90,7 @@ ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, co
     : planet_(planet),
       prior_variance_(ErrorVector::Zero()),
       spectral_density_(ErrorVector::Zero()),
-      slip_impulse_variance_(square(vehicle.slip_impulse_std)),
-      decay_rate_(ErrorVector::Zero()) {
+      vehicle_(vehicle) {
   prior_variance_.segment<3>(kAccelBias).setConstant(square(imu.accel_bias_std_ug * kMicroG));
   prior_variance_.segment<3>(kGyroBias).setConstant(square(degPerHourToRadps(imu.gyro_bias_std_deg_per_h)));
   prior_variance_(kWheelScale) = square(vehicle.wheel_scale_std);
@@ -100,15 +106,26 @@ ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, co
   spectral_density_.segment<3>(kGyroBias).setConstant(
       square(degPerHourToRadps(imu.gyro_bias_walk_deg_per_h_per_sqrt_h)) / kSecondsPerHour);
 
-  // A Gauss–Markov state of variance σ² and time constant τ is driven by white noise of density 2σ²/τ.
-  const auto gaussMarkov = [this](int index, double std, double time_s) {
-    prior_variance_(index) = square(std);
-    spectral_density_(index) = 2.0 * square(std) / time_s;
-    decay_rate_(index) = 1.0 / time_s;
+  const GroundStep usual = ground();
+  prior_variance_(kSlowSlip) = usual.slow_slip_variance;
+  prior_variance_(kFastSlip) = usual.fast_slip_variance;
+  prior_variance_(kSideSlip) = usual.side_slip_variance;
+}
+
+GroundStep ErrorDynamics::ground() const {
+  return {0.0, square(vehicle_.slow_slip_std), square(vehicle_.fast_slip_std),
+          square(std::tan(degToRad(vehicle_.side_slip_std_deg)))};
+}
+
+void ErrorDynamics::rollOver(const GroundStep& ground, ErrorTransition& transition) const {
+  const auto gaussMarkov = [&](int state, double variance, double length_m) {
+    const double decay = std::exp(-ground.way_m / length_m);
+    transition.decay(state - 9) = decay;
+    transition.noise(state) = variance * (1.0 - decay * decay);
   };
-  gaussMarkov(kSlowSlip, vehicle.slow_slip_std, vehicle.slow_slip_time_s);
-  gaussMarkov(kFastSlip, vehicle.fast_slip_std, vehicle.fast_slip_time_s);
-  gaussMarkov(kSideSlip, std::tan(degToRad(vehicle.side_slip_std_deg)), vehicle.side_slip_time_s);
+  gaussMarkov(kSlowSlip, ground.slow_slip_variance, vehicle_.slow_slip_length_m);
+  gaussMarkov(kFastSlip, ground.fast_slip_variance, vehicle_.fast_slip_length_m);
+  gaussMarkov(kSideSlip, ground.side_slip_variance, vehicle_.side_slip_length_m);
 }
 
 Eigen::Matrix<double, 9, kNavStates> ErrorDynamics::systemMatrix(const NavigationState& middle,
@@ -158,9 +175,7 @@ ErrorTransition ErrorDynamics::transition(const NavigationState& start, const Na
   t.nav.leftCols<9>().diagonal().array() += 1.0;
   t.attitude_from_yaw_scale = -omega_ib_b.z() * duration_s * (middle.q_b_to_n * Vector3::UnitZ());
   t.velocity_from_yaw_scale = 0.5 * F_dt.block<3, 3>(kVelocity, kAttitude) * t.attitude_from_yaw_scale;
-  // exp(−Δt/τ); its second order, like the rest, where the step is short against τ
-  const Eigen::Array<double, kErrorStates - 9, 1> x = decay_rate_.tail<kErrorStates - 9>().array() * duration_s;
-  t.decay = (x < 0.1).select(1.0 - x + 0.5 * x.square(), (-x).exp());
+  t.decay.setOnes();
   t.noise = spectral_density_ * duration_s;
   return t;
 }
@@ -197,12 +212,6 @@ void ErrorDynamics::propagate(const ErrorTransition& t, ErrorCovariance& P) {
   P.topRightCorner<9, kErrorStates - 9>() = P.bottomLeftCorner<kErrorStates - 9, 9>().transpose();
   P.bottomRightCorner<kErrorStates - 9, kErrorStates - 9>().array() *= (t.decay * t.decay.transpose()).array();
   P.diagonal() += 0.5 * t.noise;
-}
-
-void ErrorDynamics::loosenFastSlip(ErrorCovariance& P) const {
-  P.row(kFastSlip).setZero();
-  P.col(kFastSlip).setZero();
-  P(kFastSlip, kFastSlip) = slip_impulse_variance_;
 }
 
 void ErrorDynamics::decay(const ErrorTransition& t, VehicleState& vehicle) {

@@ -11,12 +11,6 @@
 namespace slipnav {
 namespace {
 
-/// Weight of the newest sample in the recent wheel speed.
-constexpr double kRecentSpeedGain = 0.3;
-/// Fast slip with a larger variance, against what is usual, is that of a wheel that has lost its grip.
-constexpr double kKnownSlip = 4.0;
-constexpr double kIntervalTolerance_s = 1e-3;
-
 bool earlier(const AntennaFix& a, const AntennaFix& b) {
   return std::pair(stampOf(a), a.index()) < std::pair(stampOf(b), b.index());
 }
@@ -27,13 +21,12 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
     : planet_(planet),
       setup_(setup),
       dynamics_(planet, setup.imu, setup.vehicle),
-      detector_(setup.stationary),
+      detector_(setup.stationary, imuFloor(setup.imu)),
       update_(setup.filter),
       unseen_motion_(setup.filter),
       wheel_monitor_(setup.wheel_monitor, setup.wheels),
       tremor_(setup.zero),
-      slip_ground_(setup.filter.ground),
-      side_slip_ground_(setup.filter.ground),
+      adaptation_(setup.filter.adaptation, setup.imu, setup.vehicle.slope_slip),
       use_wheel_(setup.filter.uses("wheel")),
       use_nonholonomic_(setup.filter.uses("nonholonomic")),
       use_zupt_(setup.filter.uses("zupt")),
@@ -67,16 +60,18 @@ void FilterEngine::initialise(const InitialState& initial) {
   tremor_ = Tremor(setup_.zero);
   wheel_monitor_.reset();
   unseen_motion_.reset();
-  slip_ground_ = GroundFactor(setup_.filter.ground);
-  side_slip_ground_ = GroundFactor(setup_.filter.ground);
+  adaptation_.reset();
   if (initial.tremor_variance > 0.0) {
     tremor_.setVariance(initial.tremor_variance);
   }
   // A wheel interval that began before the initial state is not known in full and goes unused.
   average_.restart(wheels_.start(initial.nav.stamp) ? initial.nav.stamp : 0);
-  vertical_average_.restart(0);
-  recent_wheel_speed_mps_ = 0.0;
-  slipping_until_ = 0;
+  constraint_average_.restart(0);
+  slipping_speed_.reset();
+  last_forward_mps_ = 0.0;
+  surface_speed_mps_ = 0.0;
+  slipping_way_m_ = 0.0;
+  way_since_wheels_m_ = slow_envelope_ = side_envelope_ = 0.0;
   steps_.clear();
   while (!fixes_.empty() && stampOf(fixes_.front()) <= initial.nav.stamp) {
     fixes_.pop_front();
@@ -192,27 +187,29 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   const Vector3 v_start_b = referenceVelocity(step);
   const double duration_s = std::min(toSeconds(step.state.stamp - step.start), kLongestGap_s);
   transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
-  transition_.noise(kSlowSlip) *= slip_ground_.variance();
-  transition_.noise(kFastSlip) *= slip_ground_.variance();
-  transition_.noise(kSideSlip) *= side_slip_ground_.variance();
+  adaptation_.addNoise(dynamics_, step, step.state, surface_speed_mps_ * duration_s, transition_);
   ErrorDynamics::propagate(transition_, P_);
   average_.propagate(transition_);
-  vertical_average_.propagate(transition_);
+  constraint_average_.propagate(transition_);
   ErrorDynamics::decay(transition_, vehicle_);
-  detector_.addImu(step.state.stamp, step.f_ib_b, step.omega_ib_b);
+  detector_.addImu(step.state.stamp, step.f_ib_b + state_.accel_bias_b, step.omega_ib_b + state_.gyro_bias_b);
   state_ = step.state;
   if (step.gap_s > 0.0) {
-    unseen_motion_.begin(state_, std::min(step.gap_s, kLongestGap_s), P_);
-    if (step.gap_s > setup_.filter.max_wheel_interval_s && step.gap_s <= kLongestGap_s &&
-        !wheels_.hasUpTo(step.start + fromSeconds(step.gap_s))) {
-      UnseenMotion::allowForStandstill(before, state_, P_);
-    }
-    forgetSlipImpulse();
-    average_.restart(0);
-    vertical_average_.restart(0);
+    endGap(step, before);
   }
   const Vector3 v_end_b = referenceVelocity(step);
   return step.gap_s > 0.0 ? v_end_b : 0.5 * (v_start_b + v_end_b);  // nothing is known of the way through a gap
+}
+
+void FilterEngine::endGap(const InsStep& step, const NavigationState& before) {
+  unseen_motion_.begin(state_, std::min(step.gap_s, kLongestGap_s), P_);
+  if (step.gap_s > setup_.filter.max_wheel_interval_s && step.gap_s <= kLongestGap_s &&
+      !wheels_.hasUpTo(step.start + fromSeconds(step.gap_s))) {
+    UnseenMotion::allowForStandstill(before, state_, P_);
+  }
+  forgetSlipImpulse();
+  average_.restart(0);
+  constraint_average_.restart(0);
 }
 
 Vector3 FilterEngine::referenceVelocity(const InsStep& step) const {
@@ -225,141 +222,6 @@ Vector3 FilterEngine::referenceVelocity(const InsStep& step) const {
 void FilterEngine::forgetSlipImpulse() {
   forgetError(kFastSlip, dynamics_.priorVariance()(kFastSlip), P_);
   vehicle_.fast_slip = 0.0;
-  slipping_until_ = 0;
-}
-
-bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
-  estimate_.has_wheels = false;
-  if (toSeconds(step.state.stamp - estimate_.wheels.stamp) > setup_.filter.max_wheel_interval_s) {
-    estimate_.stationary = false;
-  }
-  bool corrected = false;
-  while (wheels_.hasUpTo(step.state.stamp)) {
-    const WheelMotion wheels = wheels_.take();
-    const double interval_s = toSeconds(wheels.stamp - average_.start());
-    addMotion(step, v_mean_b, wheels.stamp);
-    const std::optional<BodyMotion> motion = average_.mean();
-    detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
-    // Of several in one step, as in a gap of the IMU, the last one counts: what they are compared with does not follow
-    // from one correction to the next.
-    const bool is_last = !wheels_.hasUpTo(step.state.stamp);
-    if (is_last && average_.start() != 0 && interval_s <= setup_.filter.max_wheel_interval_s && motion) {
-      corrected = applyWheelSample(wheels, *motion) || corrected;
-    } else {
-      vertical_average_.restart(wheels.stamp);
-    }
-    average_.restart(wheels.stamp);
-    recent_wheel_speed_mps_ += kRecentSpeedGain * (wheels.motion.forward_mps - recent_wheel_speed_mps_);
-  }
-  addMotion(step, corrected ? referenceVelocity(step) : v_mean_b, step.state.stamp);
-  return corrected;
-}
-
-void FilterEngine::addMotion(const InsStep& step, const Vector3& v_mean_b, Nanoseconds until) {
-  if (average_.start() != 0) {
-    const VelocityJacobian H_v = bodyVelocityJacobian(state_, setup_.lever_imu_to_reference_b);
-    vertical_average_.add(step, v_mean_b, H_v, average_.start(), until);
-    average_.add(step, v_mean_b, H_v, average_.start(), until);
-  }
-}
-
-bool FilterEngine::verticalMeanIsDue() const {
-  const std::optional<BodyMotion> mean = vertical_average_.mean();
-  return mean && mean->duration_s >= setup_.nonholonomic.vertical_interval_s - kIntervalTolerance_s;
-}
-
-bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion) {
-  estimate_.has_wheels = true;
-  estimate_.wheels = wheels;
-  estimate_.motion = motion;
-  if (wheels.count > 1 && wheels.count == wheel_monitor_.count()) {
-    wheel_monitor_.add(wheels.stamp, wheels.circumferential_mps, motion.omega_ib_b.z());
-  }
-  const double gravity_mps2 = planet_.gravity_n(state_.position).norm();
-  const bool at_rest = detector_.isStationary(gravity_mps2);
-  if (at_rest && use_zupt_) {
-    tremor_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
-  }
-  const ComponentStatus zero_velocity = update_.status(kZeroVelocity);
-  const ComponentStatus forward = update_.status(kForwardSpeed);
-  const ComponentStatus lateral = update_.status(kLateral);
-  const bool grip = P_(kFastSlip, kFastSlip) < kKnownSlip * square(setup_.vehicle.fast_slip_std);
-  const bool corrected = update(at_rest ? restingMeasurements(motion) : movingMeasurements(wheels, motion));
-  if (at_rest || verticalMeanIsDue()) {
-    vertical_average_.restart(wheels.stamp);
-  }
-  if (grip && update_.status(kForwardSpeed).measured() > forward.measured()) {
-    slip_ground_.learn(update_.status(kForwardSpeed).last_nis);
-  }
-  if (update_.status(kLateral).measured() > lateral.measured()) {
-    side_slip_ground_.learn(update_.status(kLateral).last_nis);
-  }
-  if (update_.status(kForwardSpeed).rejected > forward.rejected) {
-    unseen_motion_.doubt(wheels.stamp, P_);
-    dynamics_.loosenFastSlip(P_);
-    slipping_until_ = wheels.stamp + fromSeconds(setup_.vehicle.slip_impulse_time_s);
-  }
-  estimate_.wheel_speed_used = update_.status(kForwardSpeed).accepted > forward.accepted;
-  estimate_.slip_factor = slip_ground_.variance();
-  estimate_.side_slip_factor = side_slip_ground_.variance();
-  const bool stands = update_.status(kZeroVelocity).accepted > zero_velocity.accepted;
-  if (update_.status(kZeroVelocity).measured() > zero_velocity.measured()) {
-    unseen_motion_.standstill(stands, P_);
-  }
-  estimate_.stationary = at_rest && (!use_zupt_ || stands);
-  return corrected;
-}
-
-/// The wheels' motion without those that contradict the others.
-PlanarMotion FilterEngine::soundMotion(const WheelMotion& wheels) const {
-  PlanarMotion motion = wheels.motion;
-  if (wheel_monitor_.faultyCount() > 0) {
-    motion.forward_mps = wheel_monitor_.soundSpeed();
-    motion.has_yaw_rate = false;
-  }
-  return motion;
-}
-
-MeasurementSet FilterEngine::movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const {
-  const VelocityJacobian H_v = average_.jacobian();
-  const PlanarMotion wheel_motion = soundMotion(wheels);
-  MeasurementSet set;
-  if (use_wheel_) {
-    if (wheels.stamp > slipping_until_ && wheel_monitor_.isUsable()) {
-      const double slip_variance = P_.block<3, 3>(kWheelScale, kWheelScale).sum();
-      set.add(kForwardSpeed, forwardSpeedMeasurement(setup_.wheel, wheel_motion.forward_mps, recent_wheel_speed_mps_,
-                                                     motion, H_v, vehicle_, slip_variance, slip_ground_.variance()));
-    }
-    if (wheel_motion.has_yaw_rate) {
-      set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheel_motion.yaw_rate_radps, motion));
-    }
-  }
-  if (use_nonholonomic_) {
-    const Measurement lateral =
-        lateralMeasurement(setup_.nonholonomic, motion, H_v, vehicle_, side_slip_ground_.variance());
-    // Sideways speed that the filter itself is not sure of, as after a gap of the IMU, is no side slip.
-    const double uncertainty = lateral.variance(0) + (lateral.H * P_ * lateral.H.transpose())(0, 0);
-    if (!isExcessiveSideSlip(setup_.nonholonomic, motion, vehicle_, uncertainty)) {
-      set.add(kLateral, lateral);
-    }
-    if (verticalMeanIsDue()) {
-      set.add(kVertical, verticalMeasurement(setup_.nonholonomic, *vertical_average_.mean(),
-                                             vertical_average_.jacobian(), vehicle_));
-    }
-  }
-  return set;
-}
-
-MeasurementSet FilterEngine::restingMeasurements(const BodyMotion& motion) const {
-  MeasurementSet set;
-  if (use_zupt_) {
-    set.add(kZeroVelocity, zeroVelocityMeasurement(tremor_.variance(), state_));
-  }
-  if (use_zaru_) {
-    set.add(kZeroRate, zeroAngularRateMeasurement(setup_.zero, dynamics_.gyroNoiseDensity(), motion, state_,
-                                                  planet_.omega_ie_n(state_.position.latitude_rad)));
-  }
-  return set;
 }
 
 bool FilterEngine::applyFixes(const InsStep& step) {
@@ -384,12 +246,16 @@ bool FilterEngine::update(MeasurementSet set) {
   if (!error) {
     return false;
   }
-  const ErrorReset reset = correct(planet_, *error, state_);
-  applyReset(reset, P_);
-  subtractError(*error, vehicle_);
-  average_.correct(*error, reset);
-  vertical_average_.correct(*error, reset);
+  take(*error);
   return true;
+}
+
+void FilterEngine::take(const ErrorVector& error) {
+  const ErrorReset reset = correct(planet_, error, state_);
+  applyReset(reset, P_);
+  subtractError(error, vehicle_);
+  average_.correct(error, reset);
+  constraint_average_.correct(error, reset);
 }
 
 }  // namespace slipnav

@@ -12,7 +12,9 @@ void FilterParams::visit(ParameterVisitor& v) {
   v.number("zero_velocity_gate_alpha", zero_velocity_gate_alpha, {1e-12, 0.5},
            "the same for zero velocity and zero rate, which encoders and IMU have agreed on already");
   v.number("max_rejection_s", max_rejection_s, {0.0, 1e6},
-           "a wheel or constraint measurement that was rejected for so long is let in with inflated variance [s]");
+           "what a wheel or constraint measurement has contradicted for so long is the state: its covariance is opened [s]");
+  v.number("max_standstill_doubt_s", max_standstill_doubt_s, {0.0, 60.0},
+           "the same for a standstill that encoders and IMU agree on [s]");
   v.number("max_wait_s", max_wait_s, {0.0, 10.0}, "how long a step waits for a late wheel sample [s]");
   v.number("max_wheel_interval_s", max_wheel_interval_s, {0.01, 10.0},
            "a longer interval between wheel samples is a gap and not used [s]");
@@ -22,7 +24,7 @@ void FilterParams::visit(ParameterVisitor& v) {
            "1σ of the mean acceleration in a gap of the IMU [m/s²]");
   v.number("gap_max_tilt_deg", gap_max_tilt_deg, {0.0, 90.0},
            "1σ of what the ground can do to roll and pitch in a gap of whatever length [°]");
-  v.group("ground", ground, "how slip parameters are scaled down on better ground");
+  v.group("adaptation", adaptation, "how the noise of wheels, ground and IMU is learned while driving");
 }
 
 bool FilterParams::uses(const std::string& update) const {

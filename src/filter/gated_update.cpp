@@ -2,10 +2,11 @@
 
 namespace slipnav {
 
-GatedUpdate::GatedUpdate(const FilterParams& params) : max_rejection_s_(0.0), gate_{}, zero_gate_{} { retune(params); }
+GatedUpdate::GatedUpdate(const FilterParams& params) : max_rejection_s_(0.0), max_standstill_doubt_s_(0.0), gate_{}, zero_gate_{} { retune(params); }
 
 void GatedUpdate::retune(const FilterParams& params) {
   max_rejection_s_ = params.max_rejection_s;
+  max_standstill_doubt_s_ = params.max_standstill_doubt_s;
   for (int rows = 1; rows <= kMaxMeasurementRows; ++rows) {
     gate_[static_cast<std::size_t>(rows)] = chiSquareQuantile(rows, params.gate_alpha);
     zero_gate_[static_cast<std::size_t>(rows)] = chiSquareQuantile(rows, params.zero_velocity_gate_alpha);
@@ -17,8 +18,13 @@ double GatedUpdate::limit(const MeasurementSet::Block& block) const {
   return (zero ? zero_gate_ : gate_)[static_cast<std::size_t>(block.measurement.residual.size())];
 }
 
-bool GatedUpdate::passes(MeasurementSet::Block& block, Nanoseconds stamp, const ErrorCovariance& P) {
-  Measurement& m = block.measurement;
+double GatedUpdate::patience(const MeasurementSet::Block& block) const {
+  const bool zero = block.component == kZeroVelocity || block.component == kZeroRate;
+  return zero ? max_standstill_doubt_s_ : max_rejection_s_;
+}
+
+bool GatedUpdate::passes(MeasurementSet::Block& block, Nanoseconds stamp, ErrorCovariance& P) {
+  const Measurement& m = block.measurement;
   ComponentStatus& status = status_[block.component];
   const std::optional<double> nis = normalisedInnovationSquared(m, P);
   if (!nis) {
@@ -33,16 +39,16 @@ bool GatedUpdate::passes(MeasurementSet::Block& block, Nanoseconds stamp, const 
     status.rejected_since = 0;
     return true;
   }
-  ++status.rejected;
   if (status.rejected_since == 0) {
     status.rejected_since = stamp;
   }
-  // What contradicts for long is no outlier: let it pull, as hard as a measurement at the gate would. Standstill is
-  // exempt: it is not a matter of noise, and a dead encoder must not be believed in the end.
-  if (m.residual.size() == 1 && toSeconds(stamp - status.rejected_since) > max_rejection_s_) {
-    m.variance(0) += (*nis / limit(block) - 1.0) * (m.residual(0) * m.residual(0) / *nis);
+  if (toSeconds(stamp - status.rejected_since) >= patience(block)) {
+    openCovariance(m, P);
+    ++status.accepted;
+    ++status.opened;
     return true;
   }
+  ++status.rejected;
   return false;
 }
 

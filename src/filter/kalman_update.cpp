@@ -99,6 +99,19 @@ std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCov
   return K ? std::optional<ErrorVector>(-*K * measurement.residual) : std::nullopt;
 }
 
+void openCovariance(const Measurement& measurement, ErrorCovariance& P) {
+  const Innovation innovation(measurement, P);
+  if (!innovation.usable) {
+    return;
+  }
+  const Measurement::Vector weighted = innovation.cholesky.solve(measurement.residual);
+  const double excess = measurement.residual.dot(weighted) / static_cast<double>(measurement.residual.size()) - 1.0;
+  if (excess > 0.0) {
+    const Eigen::MatrixXd visible = innovation.PHt * innovation.cholesky.solve(innovation.PHt.transpose());
+    P += 0.5 * excess * (visible + visible.transpose());
+  }
+}
+
 double chiSquareQuantile(int degrees, double alpha) {
   if (degrees < 1 || !(alpha > 0.0 && alpha < 1.0)) {
     throw std::invalid_argument("chi-square quantile needs at least one degree of freedom and 0 < alpha < 1");

@@ -25,11 +25,6 @@ void updateWith(const KalmanGain& K, const Measurement::Jacobian& H, const Measu
   addJosephTerms(K, PHt, S, P);
 }
 
-void setGaussMarkov(int state, double std, double time_s, double step_s, ErrorTransition& transition) {
-  transition.decay(state - 9) = std::exp(-step_s / time_s);
-  transition.noise(state) = square(std) * (1.0 - std::exp(-2.0 * step_s / time_s));
-}
-
 }  // namespace
 
 CovarianceForecast::CovarianceForecast(const Planet& planet, const FilterSetup& setup, double step_s,
@@ -48,7 +43,6 @@ GroundOutlook CovarianceForecast::assumption() const {
   GroundOutlook outlook;
   outlook.drift_std = setup_.vehicle.slow_slip_std;
   outlook.change_std = setup_.vehicle.fast_slip_std;
-  outlook.change_time_s = setup_.vehicle.fast_slip_time_s;
   outlook.wheel_noise_variance = square(setup_.wheel.speed_std_mps);
   outlook.side_slip_std_rad = degToRad(setup_.vehicle.side_slip_std_deg);
   return outlook;
@@ -67,16 +61,28 @@ ErrorTransition CovarianceForecast::transition(const DriveStep& step) const {
   const Vector3 f_ib_n = step.acceleration_n - planet_.gravity_n(step.state.position);
   ErrorTransition t =
       dynamics_.transition(step.state, step.state, step.state.q_b_to_n.conjugate() * f_ib_n, Vector3::Zero(), step_s_);
-  t.noise(kSlowSlip) *= step.slip_factor;
-  t.noise(kFastSlip) *= step.slip_factor;
-  t.noise(kSideSlip) *= step.side_slip_factor;
+  GroundStep ground = dynamics_.ground();
+  ground.way_m = std::abs(step.wheel_speed_mps) * step_s_;
+  ground.slow_slip_variance *= step.noise_factors.slow_slip;
+  ground.fast_slip_variance *= step.noise_factors.fast_slip;
+  ground.side_slip_variance *= step.noise_factors.side_slip;
+  dynamics_.rollOver(ground, t);
   return t;
 }
 
-ErrorTransition CovarianceForecast::onGround(ErrorTransition transition, const GroundOutlook& outlook) const {
-  setGaussMarkov(kSlowSlip, outlook.drift_std, setup_.vehicle.slow_slip_time_s, step_s_, transition);
-  setGaussMarkov(kFastSlip, outlook.change_std, outlook.change_time_s, step_s_, transition);
-  setGaussMarkov(kSideSlip, std::tan(outlook.side_slip_std_rad), setup_.vehicle.side_slip_time_s, step_s_, transition);
+ErrorTransition CovarianceForecast::onGround(ErrorTransition transition, const DriveStep& step,
+                                             const GroundOutlook& outlook) const {
+  GroundStep ground;
+  ground.way_m = std::abs(step.wheel_speed_mps) * step_s_;
+  ground.slow_slip_variance = square(outlook.drift_std);
+  ground.fast_slip_variance = square(outlook.change_std);
+  ground.side_slip_variance = square(std::tan(outlook.side_slip_std_rad));
+  dynamics_.rollOver(ground, transition);
+  if (outlook.change_time_s) {
+    const double decay = std::exp(-step_s_ / *outlook.change_time_s);
+    transition.decay(kFastSlip - 9) = decay;
+    transition.noise(kFastSlip) = ground.fast_slip_variance * (1.0 - decay * decay);
+  }
   return transition;
 }
 
@@ -85,18 +91,18 @@ CovarianceForecast::Odometry CovarianceForecast::odometry(const DriveStep& step,
   BodyMotion motion;
   motion.duration_s = step_s_;
   motion.v_eb_b = Vector3(step.speed_mps, 0.0, 0.0);
-  const Measurement forward = forwardSpeedMeasurement(setup_.wheel, step.wheel_speed_mps, step.wheel_speed_mps, motion,
-                                                      H_v, {}, 0.0, step.slip_factor);
-  const Measurement lateral = lateralMeasurement(setup_.nonholonomic, motion, H_v, {}, step.side_slip_factor);
-  const Measurement vertical = verticalMeasurement(setup_.nonholonomic, motion, H_v, {});
+  const NoiseFactors& factors = step.noise_factors;
+  const WheelInterval interval{step.wheel_speed_mps, step.wheel_speed_mps, step_s_ / samples_per_step_};
+  const Measurement forward = forwardSpeedMeasurement(setup_.wheel, interval, motion, H_v, {}, 0.0, factors);
+  const Measurement lateral = lateralMeasurement(setup_.nonholonomic, motion, H_v, {}, factors.lateral);
+  const Measurement vertical = verticalMeasurement(setup_.nonholonomic, motion, H_v, {}, factors.vertical);
   const double wheel_samples = std::max(step.wheel_share, kLeastShare) * samples_per_step_;
-  const double vertical_samples =
-      step_s_ / std::max(setup_.nonholonomic.vertical_interval_s, step_s_ / samples_per_step_);
+  const double information = constraintInformation(setup_.nonholonomic, std::abs(step.speed_mps) * step_s_);
   Odometry odometry;
   odometry.H.resize(3, kErrorStates);
   odometry.H << forward.H, lateral.H, vertical.H;
-  odometry.claimed = Vector3(forward.variance(0) / wheel_samples, lateral.variance(0) / samples_per_step_,
-                             vertical.variance(0) / vertical_samples);
+  odometry.claimed = Vector3(forward.variance(0) / wheel_samples, lateral.variance(0) / information,
+                             vertical.variance(0) / information);
   odometry.real = odometry.claimed;
   odometry.real(0) = outlook.wheel_noise_variance / wheel_samples;
   return odometry;
@@ -106,7 +112,7 @@ void CovarianceForecast::advance(const DriveStep& step, const GroundOutlook& out
                                  ErrorCovariance& reality) const {
   const ErrorTransition by_filter = transition(step);
   ErrorDynamics::propagate(by_filter, claim);
-  ErrorDynamics::propagate(onGround(by_filter, outlook), reality);
+  ErrorDynamics::propagate(onGround(by_filter, step, outlook), reality);
   const Odometry wheels = odometry(step, outlook);
   Measurement measurement(3);
   measurement.H = wheels.H;

@@ -25,8 +25,7 @@ std::size_t toAndFro(std::size_t i, std::size_t count) {
 
 bool isFinite(const Estimate& estimate, const ErrorCovariance& P) {
   return isFinite(estimate.nav) && estimate.motion.v_eb_b.allFinite() &&
-         std::isfinite(estimate.wheels.motion.forward_mps) && std::isfinite(estimate.slip_factor) &&
-         std::isfinite(estimate.side_slip_factor) && P.allFinite();
+         std::isfinite(estimate.wheels.motion.forward_mps) && P.allFinite();
 }
 
 bool isFinite(const Forecast& forecast) {
@@ -96,8 +95,7 @@ void Forecaster::follow(const Estimate& estimate, const ErrorCovariance& P) {
   step.speed_mps = estimate.motion.v_eb_b.x();
   step.wheel_speed_mps = estimate.wheels.motion.forward_mps;
   step.wheel_share = open_step_.used / open_step_.samples;
-  step.slip_factor = estimate.slip_factor;
-  step.side_slip_factor = estimate.side_slip_factor;
+  step.noise_factors = estimate.noise_factors;
   covariance_.follow(step, P, outlook_);
   open_step_ = {now, estimate.nav.v_eb_n, 0.0, 0.0};
 }
@@ -243,8 +241,7 @@ std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {
     step.speed_mps = outlook_.speed_mps;
     step.wheel_speed_mps = outlook_.wheel_speed_mps;
     step.wheel_share = outlook_.wheel_share;
-    step.slip_factor = estimate.slip_factor;
-    step.side_slip_factor = estimate.side_slip_factor;
+    step.noise_factors = estimate.noise_factors;
     v_before_n = step.state.v_eb_n;
   }
   return steps;

@@ -1,5 +1,6 @@
 #include "slipnav/measurement/nonholonomic.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "slipnav/math/square.h"
@@ -9,30 +10,37 @@ namespace {
 
 /// Standard deviations beyond which a lateral speed is real.
 constexpr double kSignificant = 3.0;
+/// Least information of a mean over hardly any way, against one over the whole length.
+constexpr double kLeastInformation = 0.05;
 
 }  // namespace
 
 void NonholonomicParams::visit(ParameterVisitor& v) {
   v.number("lateral_std_mps", lateral_std_mps, {1e-6, 10.0},
-           "1σ of the lateral speed beside the side slip, whatever the forward speed [m/s]");
+           "1σ of the mean lateral speed beside the side slip, whatever the forward speed, before it is learned [m/s]");
   v.number("lateral_slope_std", lateral_slope_std, {0.0, 1.0},
-           "1σ of the lateral speed as a ratio of the forward speed: the sway between stones");
+           "1σ of the mean lateral speed as a ratio of the forward speed: sway; before it is learned");
   v.number("lateral_turn_std_m", lateral_turn_std_m, {0.0, 10.0},
-           "1σ of the lateral speed per heading rate: how far the centre of turn wanders along the vehicle [m]");
+           "1σ of the lateral speed per heading rate: how far the center of turn wanders along the vehicle [m]");
   v.number("vertical_std_mps", vertical_std_mps, {1e-6, 10.0},
-           "1σ of the speed off the ground, whatever the forward speed [m/s]");
+           "1σ of the mean speed off the ground, whatever the forward speed, before it is learned [m/s]");
   v.number("vertical_slope_std", vertical_slope_std, {0.0, 1.0},
-           "1σ of the speed off the ground as a ratio of the forward speed: the heave over stones");
+           "1σ of the mean speed off the ground as a ratio of the forward speed: heave and pitch; before it is learned");
   v.number("vertical_turn_std_m", vertical_turn_std_m, {0.0, 10.0},
            "1σ of the speed off the ground per roll and pitch rate [m]");
-  v.number("vertical_interval_s", vertical_interval_s, {0.0, 10.0},
-           "time over which the speed off the ground is averaged, at least a wheel interval [s]");
+  v.number("length_m", length_m, {0.0, 100.0},
+           "way over which both are averaged, of the order of the vehicle's own length [m]");
+  v.number("max_interval_s", max_interval_s, {0.0, 60.0}, "longest time over which both are averaged [s]");
   v.number("max_side_slip_deg", max_side_slip_deg, {0.1, 90.0},
            "slip angle beyond which the lateral constraint is dropped [°]");
 }
 
+double constraintInformation(const NonholonomicParams& params, double way_m) {
+  return params.length_m > 0.0 ? std::clamp(way_m / params.length_m, kLeastInformation, 1.0) : 1.0;
+}
+
 Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
-                               const VehicleState& vehicle, double ground) {
+                               const VehicleState& vehicle, double factor) {
   const double v_x = motion.v_eb_b.x();
   const double angle = vehicle.mount_yaw_rad - vehicle.side_slip;
   Measurement m(1);
@@ -40,8 +48,8 @@ Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotio
   m.H = H_v.row(1) + angle * H_v.row(0);
   m.H(0, kMountYaw) = v_x;
   m.H(0, kSideSlip) = -v_x;
-  m.variance(0) = square(params.lateral_std_mps) + ground * square(params.lateral_slope_std * v_x) +
-                  square(params.lateral_turn_std_m * motion.omega_ib_b.z());
+  m.variance(0) = factor * (square(params.lateral_std_mps) + square(params.lateral_slope_std * v_x) +
+                            square(params.lateral_turn_std_m * motion.omega_ib_b.z()));
   return m;
 }
 
@@ -52,14 +60,14 @@ bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& mot
 }
 
 Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
-                                const VehicleState& vehicle) {
+                                const VehicleState& vehicle, double factor) {
   const double v_x = motion.v_eb_b.x();
   Measurement m(1);
   m.residual(0) = -(motion.v_eb_b.z() - vehicle.mount_pitch_rad * v_x);
   m.H = H_v.row(2) - vehicle.mount_pitch_rad * H_v.row(0);
   m.H(0, kMountPitch) = -v_x;
-  m.variance(0) = square(params.vertical_std_mps) + square(params.vertical_slope_std * v_x) +
-                  square(params.vertical_turn_std_m) * motion.omega_ib_b.head<2>().squaredNorm();
+  m.variance(0) = factor * (square(params.vertical_std_mps) + square(params.vertical_slope_std * v_x) +
+                            square(params.vertical_turn_std_m) * motion.omega_ib_b.head<2>().squaredNorm());
   return m;
 }
 

@@ -14,14 +14,14 @@ constexpr Nanoseconds kForgetAtOnce = 10 * kSecond;
 
 }  // namespace
 
-StartRecording::StartRecording(const StationaryParams& stationary, double gravity_mps2, double min_rest_s,
+StartRecording::StartRecording(const StationaryParams& stationary, const ImuFloor& floor, double gravity_mps2, double min_rest_s,
                                double max_rest_s, const Vector3& accel_bias_b, const Vector3& gyro_bias_b)
     : gravity_mps2_(gravity_mps2),
       min_rest_s_(min_rest_s),
       max_rest_s_(max_rest_s),
       accel_bias_b_(accel_bias_b),
       gyro_bias_b_(gyro_bias_b),
-      detector_(stationary) {}
+      detector_(stationary, floor) {}
 
 void StartRecording::clear() {
   detector_.reset();
@@ -65,7 +65,7 @@ void StartRecording::push(const AntennaFix& fix) {
 
 void StartRecording::trackRest(const WheelMotion& wheels) {
   detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
-  const bool at_rest = detector_.isStationary(gravity_mps2_);
+  const bool at_rest = detector_.judge(gravity_mps2_);
   if (at_rest && !rest_.over) {
     if (rest_.begin == 0) {
       rest_.begin = wheels.stamp;

@@ -121,8 +121,8 @@ void fill(const Estimate& estimate, const ErrorCovariance& P, ForecastInput& mes
   message.state = toMessage(estimate.nav);
   message.vehicle = {wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad};
   Eigen::Map<RowMajorCovariance>(message.covariance.data()) = P;
-  message.slip_factor = estimate.slip_factor;
-  message.side_slip_factor = estimate.side_slip_factor;
+  const auto factors = estimate.noise_factors.toArray();
+  std::copy(factors.begin(), factors.end(), message.noise_factors.begin());
   message.stationary = estimate.stationary;
   message.wheel_speed_used = estimate.wheel_speed_used;
   message.wheel_stamp = toRosTime(estimate.wheels.stamp);
@@ -136,8 +136,9 @@ Estimate estimateOf(const ForecastInput& message) {
   estimate.nav = fromMessage(message.state);
   estimate.vehicle = {message.vehicle[0], message.vehicle[1], message.vehicle[2],
                       message.vehicle[3], message.vehicle[4], message.vehicle[5]};
-  estimate.slip_factor = message.slip_factor;
-  estimate.side_slip_factor = message.side_slip_factor;
+  std::array<double, NoiseFactors::kCount> factors = {};
+  std::copy(message.noise_factors.begin(), message.noise_factors.end(), factors.begin());
+  estimate.noise_factors = NoiseFactors::fromArray(factors);
   estimate.stationary = message.stationary;
   estimate.has_wheels = true;
   estimate.wheel_speed_used = message.wheel_speed_used;

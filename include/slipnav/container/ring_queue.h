@@ -33,6 +33,8 @@ class RingQueue {
     --size_;
   }
 
+  void pop_back() { --size_; }
+
   /// Inserts so that `item` comes after every element for which `before(item, element)` is false.
   template <class Before>
   void insertSorted(const T& item, Before before) {

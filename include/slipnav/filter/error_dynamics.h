@@ -4,6 +4,7 @@
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/filter/error_state.h"
 #include "slipnav/ins/strapdown.h"
+#include "slipnav/slip/stationary_detector.h"
 
 namespace slipnav {
 
@@ -19,19 +20,21 @@ struct ImuNoiseParams {
   void visit(ParameterVisitor& v);
 };
 
+/// The data sheet in SI units.
+ImuFloor imuFloor(const ImuNoiseParams& params);
+
 /// How vehicle and ground behave between measurements.
 struct VehicleModelParams {
   double wheel_scale_std = 0.01;
-  double slow_slip_std = 0.08;
-  double slow_slip_time_s = 30.0;
-  double fast_slip_std = 0.022;
-  double fast_slip_time_s = 1.5;
-  double slip_impulse_std = 1.0;
-  double slip_impulse_time_s = 1.5;
+  double slow_slip_std = 0.06;
+  double slow_slip_length_m = 24.0;
+  double slope_slip = 0.2;
+  double fast_slip_std = 0.1;
+  double fast_slip_length_m = 0.8;
   double side_slip_std_deg = 1.7;
-  double side_slip_time_s = 10.0;
-  double mount_pitch_std_deg = 0.3;
-  double mount_yaw_std_deg = 0.3;
+  double side_slip_length_m = 8.0;
+  double mount_pitch_std_deg = 1.0;
+  double mount_yaw_std_deg = 1.0;
   void visit(ParameterVisitor& v);
 };
 
@@ -45,6 +48,14 @@ struct ErrorTransition {
 
   /// The whole 22×22 matrix Φ.
   ErrorCovariance matrix() const;
+};
+
+/// What the wheels have rolled over in a step, as variances of the slip states in steady state.
+struct GroundStep {
+  double way_m = 0.0;  ///< of the wheels' surface
+  double slow_slip_variance = 0.0;
+  double fast_slip_variance = 0.0;
+  double side_slip_variance = 0.0;
 };
 
 /// F, Φ and Q of the 22 error states for one planet, IMU and vehicle. Immutable.
@@ -62,14 +73,18 @@ class ErrorDynamics {
   ErrorTransition transition(const NavigationState& start, const NavigationState& end, const Vector3& f_ib_b,
                              const Vector3& omega_ib_b, double duration_s) const;
 
+  /// Lets the slip states fade and change over the way of a step: a Gauss–Markov process of variance σ² and length L
+  /// decays by exp(−w/L) and gains σ²(1 − exp(−2w/L)). Slip belongs to the ground: a rover at rest keeps it.
+  void rollOver(const GroundStep& ground, ErrorTransition& transition) const;
+
+  /// Steady-state variances of slow, fast and side slip by the parameters.
+  GroundStep ground() const;
+
   /// P ← Φ (P + ½Q_cΔt) Φᵀ + ½Q_cΔt, second order in the step (Groves 14.80).
   static void propagate(const ErrorTransition& transition, ErrorCovariance& P);
 
   /// Lets the estimates of Gauss–Markov states fade as the transition says.
   static void decay(const ErrorTransition& transition, VehicleState& vehicle);
-
-  /// Forgets the fast slip: nothing is known of it but that it has jumped, by the deviation of an impulse.
-  void loosenFastSlip(ErrorCovariance& P) const;
 
   /// Density of the gyros' white noise [rad²/s].
   double gyroNoiseDensity() const { return spectral_density_(kAttitude); }
@@ -81,8 +96,7 @@ class ErrorDynamics {
   Planet planet_;
   ErrorVector prior_variance_;
   ErrorVector spectral_density_;  ///< continuous, one-sided in time: variance per second
-  double slip_impulse_variance_;
-  ErrorVector decay_rate_;  ///< 1/s, zero for constants and random walks
+  VehicleModelParams vehicle_;
 };
 
 }  // namespace slipnav

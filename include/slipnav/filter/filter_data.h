@@ -7,6 +7,7 @@
 
 #include "slipnav/filter/error_state.h"
 #include "slipnav/measurement/body_motion.h"
+#include "slipnav/measurement/noise_factors.h"
 #include "slipnav/measurement/wheel_geometry.h"
 #include "slipnav/sensors.h"
 
@@ -60,6 +61,7 @@ const char* componentName(Component component);
 struct ComponentStatus {
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
+  std::uint64_t opened = 0;        ///< of the accepted ones, those that the covariance was opened for
   double nis_sum = 0.0;            ///< of the accepted ones, each divided by its degrees of freedom
   double last_nis = 0.0;           ///< likewise, accepted or not
   Nanoseconds rejected_since = 0;  ///< 0 while the last one was accepted
@@ -74,8 +76,7 @@ struct Estimate {
   Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean specific force of the step [m/s²]
   Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean rate of the step [rad/s]
   VehicleState vehicle;
-  double slip_factor = 1.0;       ///< on the variances of slip, see GroundFactor
-  double side_slip_factor = 1.0;  ///< on the variances of side slip, likewise
+  NoiseFactors noise_factors;  ///< learned, see NoiseScales
   bool stationary = false;
   bool wheel_speed_used = false;  ///< the forward speed of that sample passed its gate
   bool has_wheels = false;        ///< a wheel sample ended in this step

@@ -17,6 +17,8 @@
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/filter/gated_update.h"
 #include "slipnav/filter/mean_motion.h"
+#include "slipnav/filter/noise_adaptation.h"
+#include "slipnav/filter/slipping_speed.h"
 #include "slipnav/filter/unseen_motion.h"
 #include "slipnav/filter/wheel_queue.h"
 #include "slipnav/ins/ins_engine.h"
@@ -81,17 +83,25 @@ class FilterEngine {
  private:
   bool isCertain(const InsStep& step) const;
   Vector3 propagate(const InsStep& step);
+  void endGap(const InsStep& step, const NavigationState& before);
   Vector3 referenceVelocity(const InsStep& step) const;
   void forgetSlipImpulse();
   bool applyWheels(const InsStep& step, const Vector3& v_mean_b);
   void addMotion(const InsStep& step, const Vector3& v_mean_b, Nanoseconds until);
-  bool verticalMeanIsDue() const;
+  bool constraintsAreDue() const;
   bool applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion);
-  MeasurementSet movingMeasurements(const WheelMotion& wheels, const BodyMotion& motion) const;
-  MeasurementSet restingMeasurements(const BodyMotion& motion) const;
+  bool stand(const WheelMotion& wheels, const BodyMotion& motion);
+  bool drive(const WheelMotion& wheels, const BodyMotion& motion);
+  void addForwardSpeed(const WheelMotion& wheels, const BodyMotion& motion, MeasurementSet& set);
+  void addConstraints(MeasurementSet& set);
+  void loosen(const Measurement& forward, Nanoseconds stamp, double jump);
+  void noteWheels(const WheelMotion& wheels, double interval_s);
   bool applyFixes(const InsStep& step);
   PlanarMotion soundMotion(const WheelMotion& wheels) const;
   bool update(MeasurementSet set);
+  void take(const ErrorVector& error);
+  void conditionOnGround();
+  void condition(int state, double variance, double value, double& envelope);
   void turnTo(double heading_rad, double heading_std_rad);
 
   Planet planet_;
@@ -102,8 +112,7 @@ class FilterEngine {
   UnseenMotion unseen_motion_;
   WheelMonitor wheel_monitor_;
   Tremor tremor_;
-  GroundFactor slip_ground_;
-  GroundFactor side_slip_ground_;
+  NoiseAdaptation adaptation_;
   bool use_wheel_;
   bool use_nonholonomic_;
   bool use_zupt_;
@@ -120,10 +129,15 @@ class FilterEngine {
   RingQueue<InsStep> steps_;
   WheelQueue wheels_;
   RingQueue<AntennaFix> fixes_;          ///< not yet applied, by stamp
-  Nanoseconds slipping_until_ = 0;       ///< a slip impulse makes the wheel speed useless until then
-  double recent_wheel_speed_mps_ = 0.0;  ///< of the samples before the present one, smoothed
+  SlippingSpeed slipping_speed_;
+  double last_forward_mps_ = 0.0;        ///< predicted, mean over the wheel interval before
+  double way_since_wheels_m_ = 0.0;      ///< of the surface, in the last wheel interval
+  double slow_envelope_ = 0.0;           ///< of the variance of slow slip in steady state
+  double side_envelope_ = 0.0;
+  double slipping_way_m_ = 0.0;          ///< over which wheel speeds have contradicted
+  double surface_speed_mps_ = 0.0;       ///< of the wheels, last sample
   MeanMotion average_;                   ///< over the wheel interval that is open
-  MeanMotion vertical_average_;          ///< over the wheel intervals since the last vertical constraint
+  MeanMotion constraint_average_;        ///< over the wheel intervals since the last constraint
   Estimate estimate_;
 };
 

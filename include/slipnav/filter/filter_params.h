@@ -6,7 +6,7 @@
 
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/filter/error_dynamics.h"
-#include "slipnav/filter/ground_factor.h"
+#include "slipnav/filter/noise_scales.h"
 #include "slipnav/measurement/nonholonomic.h"
 #include "slipnav/measurement/wheel_monitor.h"
 #include "slipnav/measurement/wheel_odometry.h"
@@ -21,12 +21,13 @@ struct FilterParams {
   double gate_alpha = 0.001;
   double zero_velocity_gate_alpha = 1e-6;
   double max_rejection_s = 3.0;
+  double max_standstill_doubt_s = 0.8;
   double max_wait_s = 1.0;
   double max_wheel_interval_s = 0.5;
   double gap_rate_std_deg_per_s = 2.0;
   double gap_accel_std_mps2 = 0.3;
   double gap_max_tilt_deg = 4.0;
-  GroundFactorParams ground;
+  NoiseScaleParams adaptation;
   void visit(ParameterVisitor& v);
 
   bool uses(const std::string& update) const;

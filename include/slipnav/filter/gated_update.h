@@ -28,7 +28,8 @@ class MeasurementSet {
   std::size_t size_ = 0;
 };
 
-/// Gates by chi-square quantiles, and keeps count of what passed and what did not.
+/// Gates by chi-square quantiles, and keeps count of what passed and what did not. A measurement that has contradicted
+/// for long is not the outlier, the state is: then the covariance is opened until it is plausible, and it is used.
 class GatedUpdate {
  public:
   explicit GatedUpdate(const FilterParams& params);
@@ -39,13 +40,18 @@ class GatedUpdate {
   /// @return the estimated error when at least one measurement passed; P is updated then, and untouched otherwise
   std::optional<ErrorVector> apply(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P);
 
+  /// Of the normalised innovation squared of so many rows.
+  double gate(int rows) const { return gate_[static_cast<std::size_t>(rows)]; }
+
   const ComponentStatus& status(Component component) const { return status_[component]; }
 
  private:
-  bool passes(MeasurementSet::Block& block, Nanoseconds stamp, const ErrorCovariance& P);
+  bool passes(MeasurementSet::Block& block, Nanoseconds stamp, ErrorCovariance& P);
+  double patience(const MeasurementSet::Block& block) const;
   double limit(const MeasurementSet::Block& block) const;
 
   double max_rejection_s_;
+  double max_standstill_doubt_s_;
   std::array<double, kMaxMeasurementRows + 1> gate_;       ///< by degrees of freedom
   std::array<double, kMaxMeasurementRows + 1> zero_gate_;  ///< the same for zero velocity and zero rate
   std::array<ComponentStatus, kComponents> status_;

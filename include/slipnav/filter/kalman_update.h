@@ -43,6 +43,11 @@ std::optional<KalmanGain> updateCovariance(const Measurement& measurement, Error
 /// As updateCovariance(), but returns the estimated error, to be taken out of the state.
 std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P);
 
+/// Opens P along its own correlations until `measurement`, which has contradicted for long, is as plausible as one of
+/// its normalised innovation squared should be: P ← P + (α−1) P Hᵀ S⁻¹ H P with α = rᵀS⁻¹r / n. What contradicts
+/// for long is the state. Does nothing where the innovation is plausible already.
+void openCovariance(const Measurement& measurement, ErrorCovariance& P);
+
 /// P Hᵀ: covariance of the state's errors with those of the measurement's prediction.
 KalmanGain covarianceWithPrediction(const Measurement::Jacobian& H, const ErrorCovariance& P);
 

@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include <optional>
+
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 
@@ -26,7 +28,7 @@ struct GroundOutlook {
   double wheel_share = 1.0;           ///< of the wheel speeds that the filter uses: slip impulses are left out
   double drift_std = 0.0;             ///< of the slip ratio that persists, 1σ
   double change_std = 0.0;            ///< of the slip ratio that comes and goes, 1σ
-  double change_time_s = 1.0;         ///< its time constant
+  std::optional<double> change_time_s;  ///< its time constant; none: the filter's own length
   double side_slip_std_rad = 0.0;     ///< 1σ
 };
 
@@ -37,8 +39,7 @@ struct DriveStep {
   double speed_mps = 0.0;                    ///< forward, over ground
   double wheel_speed_mps = 0.0;              ///< circumferential
   double wheel_share = 1.0;                  ///< of the wheel speeds that the filter used or will use
-  double slip_factor = 1.0;                  ///< by which the filter scales its variances of slip
-  double side_slip_factor = 1.0;             ///< likewise of side slip
+  NoiseFactors noise_factors;                ///< by which the filter scales its variances
 };
 
 /// Carries the filter's covariance and that of the real error side by side, along the way driven and the way ahead.
@@ -78,7 +79,7 @@ class CovarianceForecast {
   Odometry odometry(const DriveStep& step, const GroundOutlook& outlook) const;
   ErrorTransition transition(const DriveStep& step) const;
   /// What differs between the filter's model of the ground and the outlook: how vehicle states decay and are driven.
-  ErrorTransition onGround(ErrorTransition transition, const GroundOutlook& outlook) const;
+  ErrorTransition onGround(ErrorTransition transition, const DriveStep& step, const GroundOutlook& outlook) const;
 
   /// Both covariances through one step.
   void advance(const DriveStep& step, const GroundOutlook& outlook, ErrorCovariance& claim,

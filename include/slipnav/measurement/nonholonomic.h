@@ -10,32 +10,37 @@ namespace slipnav {
 
 /// Block `nonholonomic`.
 struct NonholonomicParams {
-  double lateral_std_mps = 0.0012;
-  double lateral_slope_std = 0.0075;
-  double lateral_turn_std_m = 0.03;
-  double vertical_std_mps = 0.001;
-  double vertical_slope_std = 0.0033;
-  double vertical_turn_std_m = 0.0075;
-  double vertical_interval_s = 1.0;
+  double lateral_std_mps = 0.003;
+  double lateral_slope_std = 0.015;
+  double lateral_turn_std_m = 0.1;
+  double vertical_std_mps = 0.003;
+  double vertical_slope_std = 0.015;
+  double vertical_turn_std_m = 0.03;
+  double length_m = 1.0;
+  double max_interval_s = 2.0;
   double max_side_slip_deg = 15.0;
   void visit(ParameterVisitor& v);
 };
 
+/// Both constraints are measured as means over a way long enough for the body to have swayed, pitched and heaved about
+/// its path, so that errors of successive means are about independent. Over a shorter way the variance is that of as
+/// much less information.
+/// @param way_m gone in the interval, at least 0
+double constraintInformation(const NonholonomicParams& params, double way_m);
+
 /// Lateral speed of the reference point: v_y + ψ_m v_x − tan β v_x = 0.
-/// @param H_v of motion.v_eb_b; @param ground on the variance of the sway, see GroundFactor
+/// @param H_v of motion.v_eb_b; @param factor learned, on the variance
 Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
-                               const VehicleState& vehicle, double ground);
+                               const VehicleState& vehicle, double factor);
 
 /// Whether the rover slides sideways so much that the lateral constraint says nothing: the slip angle is beyond its
 /// limit and the lateral speed is more than the constraint's own noise can explain.
 bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& motion, const VehicleState& vehicle,
                          double lateral_variance);
 
-/// Vertical speed of the reference point: v_z − θ_m v_x = 0. What the body rises over a stone it comes down again: the
-/// noise is that of a difference of heights. Means over `vertical_interval_s` are taken, long enough for it to pass for
-/// white.
+/// Vertical speed of the reference point: v_z − θ_m v_x = 0.
 Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
-                                const VehicleState& vehicle);
+                                const VehicleState& vehicle, double factor);
 
 /// Slip angle β = atan2(v_y, v_x) of the reference point in vehicle axes, forward-right-down [rad]. In reverse it is
 /// counted from the backward axis, so that straight driving is zero either way.

@@ -6,6 +6,7 @@
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/filter/kalman_update.h"
 #include "slipnav/measurement/body_motion.h"
+#include "slipnav/measurement/noise_factors.h"
 #include "slipnav/measurement/wheel_geometry.h"
 
 namespace slipnav {
@@ -16,26 +17,42 @@ struct WheelOdometryParams {
   double stamp_delay_s = 0.0;
   double speed_std_mps = 0.002;
   double slip_noise_std = 0.006;
+  double stamp_std_s = 0.03;
   double yaw_rate_std_deg_per_s = 3.3;
   double yaw_rate_scale_std = 0.3;
+  double yaw_rate_length_m = 5.0;
   double scrub_factor = 1.0;
   void visit(ParameterVisitor& v);
 };
 
-/// Forward speed: u = v_x + ū (κ + s_slow + s_fast), with u the mean circumferential speed of the wheels and ū what it
-/// was just before. The slip ratio is defined by u itself, so ū ≈ u; but were it u, noise of u would look like slip
-/// (errors in variables), and were it a product of estimated states, the direction in which speed and slip cannot be
-/// told apart would turn with every update and the filter would believe that it knows them.
-/// While the rover brakes or accelerates ū is not u; what that does to the product counts as noise.
-/// @param wheel_speed_mps u; @param slipping_speed_mps ū; @param motion means over the odometry interval
-/// @param H_v of motion.v_eb_b; @param slip_variance of the estimated κ + s_slow + s_fast
-/// @param ground on the variance of slip that is new in every sample, see GroundFactor
-Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, double wheel_speed_mps,
-                                    double slipping_speed_mps, const BodyMotion& motion, const VelocityJacobian& H_v,
-                                    const VehicleState& vehicle, double slip_variance, double ground);
+/// What the wheels say of one interval.
+struct WheelInterval {
+  double speed_mps = 0.0;           ///< u: mean circumferential speed
+  double slipping_speed_mps = 0.0;  ///< ū: what slip is a ratio of, see SlippingSpeed
+  double duration_s = 0.0;
+  double acceleration_mps2 = 0.0;  ///< of the vehicle, predicted
+};
 
-/// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z.
-Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps,
+/// Forward speed: u = v_x + ū (κ + s_slow + s_fast). The slip ratio is defined by u itself, so ū ≈ u; but were it u,
+/// noise of u would look like slip (errors in variables), and were it a product of estimated states, the direction in
+/// which speed and slip cannot be told apart would turn with every update and the filter would believe that it knows
+/// them. While the rover gathers speed ū is behind it, and a stamp that is off shows: both count as noise.
+/// The variance is made of a density in time for the encoders and one in way for the slip: encoders of any rate say the
+/// same together.
+/// @param motion means over the interval; @param H_v of motion.v_eb_b
+/// @param slip_variance of the estimated κ + s_slow + s_fast
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, const WheelInterval& wheels,
+                                    const BodyMotion& motion, const VelocityJacobian& H_v, const VehicleState& vehicle,
+                                    double slip_variance, const NoiseFactors& factors);
+
+/// The part of that variance that is white noise of the wheel speed; and of slip that is new in every interval.
+double wheelNoiseVariance(const WheelOdometryParams& params, double duration_s, const NoiseFactors& factors);
+double newSlipVariance(const WheelOdometryParams& params, const WheelInterval& wheels, const NoiseFactors& factors);
+
+/// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z. Scrub and the slip of one
+/// side last for `yaw_rate_length_m`: over a shorter way the variance is that of as much less information.
+/// @param way_m of the wheels' surface in the interval
+Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps, double way_m,
                                const BodyMotion& motion);
 
 }  // namespace slipnav
