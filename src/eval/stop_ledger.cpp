@@ -26,10 +26,10 @@ double StopLedger::Spread::variance() const {
   return count > 0.0 ? std::max((sum_square - sum.squaredNorm() / count) / count, 0.0) : 0.0;
 }
 
-StopLedger::StopLedger(const StationaryParams& stationary, double gravity_mps2)
+StopLedger::StopLedger(const StationaryParams& stationary, const ImuFloor& floor, double gravity_mps2)
     : rest_speed_mps_(std::max(stationary.wheel_speed_mps, kRestSpeed_mps)),
       gravity_mps2_(gravity_mps2),
-      detector_(stationary) {}
+      detector_(stationary, floor) {}
 
 void StopLedger::add(const ImuSample& sample) {
   if (!sample.f_ib_b.allFinite() || !sample.omega_ib_b.allFinite()) {
@@ -45,6 +45,7 @@ void StopLedger::add(const ImuSample& sample) {
 
 void StopLedger::add(const WheelMotion& wheels) {
   detector_.addWheels(wheels.stamp, wheels.largest_speed_mps);
+  const bool detected = detector_.judge(gravity_mps2_);
   if (wheels.largest_speed_mps > rest_speed_mps_) {
     noteMotion(wheels.stamp);
     return;
@@ -54,7 +55,7 @@ void StopLedger::add(const WheelMotion& wheels) {
     driving_since_ = 0;
   }
   open_->time.end = wheels.stamp;
-  open_->detected = open_->detected || detector_.isStationary(gravity_mps2_);
+  open_->detected = open_->detected || detected;
 }
 
 void StopLedger::noteMotion(Nanoseconds stamp) {

@@ -87,10 +87,7 @@ ErrorCovariance ErrorTransition::matrix() const {
 }
 
 ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, const VehicleModelParams& vehicle)
-    : planet_(planet),
-      prior_variance_(ErrorVector::Zero()),
-      spectral_density_(ErrorVector::Zero()),
-      vehicle_(vehicle) {
+    : planet_(planet), prior_variance_(ErrorVector::Zero()), spectral_density_(ErrorVector::Zero()), vehicle_(vehicle) {
   prior_variance_.segment<3>(kAccelBias).setConstant(square(imu.accel_bias_std_ug * kMicroG));
   prior_variance_.segment<3>(kGyroBias).setConstant(square(degPerHourToRadps(imu.gyro_bias_std_deg_per_h)));
   prior_variance_(kWheelScale) = square(vehicle.wheel_scale_std);

@@ -11,8 +11,9 @@ void FilterParams::visit(ParameterVisitor& v) {
            "probability with which a good measurement fails the innovation gate");
   v.number("zero_velocity_gate_alpha", zero_velocity_gate_alpha, {1e-12, 0.5},
            "the same for zero velocity and zero rate, which encoders and IMU have agreed on already");
-  v.number("max_rejection_s", max_rejection_s, {0.0, 1e6},
-           "what a wheel or constraint measurement has contradicted for so long is the state: its covariance is opened [s]");
+  v.number(
+      "max_rejection_s", max_rejection_s, {0.0, 1e6},
+      "what a wheel or constraint measurement has contradicted for so long is the state: its covariance is opened [s]");
   v.number("max_standstill_doubt_s", max_standstill_doubt_s, {0.0, 60.0},
            "the same for a standstill that encoders and IMU agree on [s]");
   v.number("max_wait_s", max_wait_s, {0.0, 10.0}, "how long a step waits for a late wheel sample [s]");

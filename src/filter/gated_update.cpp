@@ -2,7 +2,10 @@
 
 namespace slipnav {
 
-GatedUpdate::GatedUpdate(const FilterParams& params) : max_rejection_s_(0.0), max_standstill_doubt_s_(0.0), gate_{}, zero_gate_{} { retune(params); }
+GatedUpdate::GatedUpdate(const FilterParams& params)
+    : max_rejection_s_(0.0), max_standstill_doubt_s_(0.0), gate_{}, zero_gate_{} {
+  retune(params);
+}
 
 void GatedUpdate::retune(const FilterParams& params) {
   max_rejection_s_ = params.max_rejection_s;

@@ -68,8 +68,7 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   ground.fast_slip_variance = ground.fast_slip_variance * factor.fast_slip + square(kLeastFastSlip);
   ground.slow_slip_variance =
       ground.slow_slip_variance * factor.slow_slip + square(slope_slip_ * C_b_to_n(2, 0)) + square(kLeastSlowSlip);
-  ground.side_slip_variance =
-      ground.side_slip_variance * factor.side_slip + square(slope_slip_ * C_b_to_n(2, 1));
+  ground.side_slip_variance = ground.side_slip_variance * factor.side_slip + square(slope_slip_ * C_b_to_n(2, 1));
   dynamics.rollOver(ground, transition);
 
   const ImuNoiseDensity shaking = meter_.density();
@@ -84,7 +83,8 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   way_m_ += way_m;
 }
 
-void NoiseAdaptation::learnForward(const WheelOdometryParams& params, const WheelInterval& wheels, const Innovation1& innovation) {
+void NoiseAdaptation::learnForward(const WheelOdometryParams& params, const WheelInterval& wheels,
+                                   const Innovation1& innovation) {
   const NoiseFactors factor = factors();
   const double slipping2 = square(wheels.slipping_speed_mps);
   NoiseVector shares = NoiseVector::Zero();

@@ -61,7 +61,8 @@ NoiseScales::NoiseScales(const NoiseScaleParams& params) : length_m_(params.leng
 void NoiseScales::fade(double way_m) {
   const double decay = std::exp(-way_m / (kPriorLengths * length_m_));
   theta_ = prior_ + decay * (theta_ - prior_);
-  // In steady state an innovation that θ explains alone has the gain Σ/2 = interval/length: q = 2 · interval · way/length².
+  // In steady state an innovation that θ explains alone has the gain Σ/2 = interval/length: q = 2 · interval ·
+  // way/length².
   const double q = 2.0 * way_m / square(length_m_);
   for (int kind = 0; kind < kNoiseKinds; ++kind) {
     const bool by_wheels = kind == kWheelNoise || kind == kFastSlipNoise || kind == kSlowSlipNoise;

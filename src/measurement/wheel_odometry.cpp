@@ -20,7 +20,8 @@ void WheelOdometryParams::visit(ParameterVisitor& v) {
            "which message the wheels' speeds are taken from; auto: joint_states from its first usable message on");
   v.number("stamp_delay_s", stamp_delay_s, {-1.0, 1.0},
            "how much later than the end of the interval, which its speeds are the mean of, a sample is stamped [s]");
-  v.number("speed_std_mps", speed_std_mps, {1e-6, 10.0}, "1σ of the mean wheel speed over 0.1 s, before anything is learned [m/s]");
+  v.number("speed_std_mps", speed_std_mps, {1e-6, 10.0},
+           "1σ of the mean wheel speed over 0.1 s, before anything is learned [m/s]");
   v.number("slip_noise_std", slip_noise_std, {0.0, 1.0}, "1σ of the mean over 0.1 m of slip that has no memory");
   v.number("stamp_std_s", stamp_std_s, {0.0, 1.0}, "1σ of the stamps against those of the IMU [s]");
   v.number("yaw_rate_std_deg_per_s", yaw_rate_std_deg_per_s, {1e-6, 1e3}, "1σ of the heading rate from wheels [°/s]");

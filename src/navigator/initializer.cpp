@@ -76,8 +76,8 @@ Initializer::Initializer(const Planet& planet, const InitializationParams& param
       imu_params_(imu),
       setup_(setup),
       prior_variance_(ErrorDynamics(planet, setup.imu, setup.vehicle).priorVariance()),
-      recording_(setup.stationary, imuFloor(setup.imu), planet.gravity_n(startingPlace(params)).norm(), params.min_rest_s, params.max_rest_s,
-                 inBodyAxes(params.accel_bias_ug, kMicroG),
+      recording_(setup.stationary, imuFloor(setup.imu), planet.gravity_n(startingPlace(params)).norm(),
+                 params.min_rest_s, params.max_rest_s, inBodyAxes(params.accel_bias_ug, kMicroG),
                  inBodyAxes(params.gyro_bias_deg_per_h, degPerHourToRadps(1.0))),
       check_(planet.gravity_n(startingPlace(params)).norm(), setup.stationary.wheel_speed_mps) {}
 

@@ -14,8 +14,9 @@ constexpr Nanoseconds kForgetAtOnce = 10 * kSecond;
 
 }  // namespace
 
-StartRecording::StartRecording(const StationaryParams& stationary, const ImuFloor& floor, double gravity_mps2, double min_rest_s,
-                               double max_rest_s, const Vector3& accel_bias_b, const Vector3& gyro_bias_b)
+StartRecording::StartRecording(const StationaryParams& stationary, const ImuFloor& floor, double gravity_mps2,
+                               double min_rest_s, double max_rest_s, const Vector3& accel_bias_b,
+                               const Vector3& gyro_bias_b)
     : gravity_mps2_(gravity_mps2),
       min_rest_s_(min_rest_s),
       max_rest_s_(max_rest_s),

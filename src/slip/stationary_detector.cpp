@@ -146,8 +146,8 @@ bool StationaryDetector::judge(double gravity_mps2) {
     drive_.add(w, interval_s, kDriveMemory_s);
     return false;
   }
-  const bool at_rest = last_wheels_ - wheels_at_rest_since_ >= fromSeconds(params_.hold_off_s) &&
-                       scattersLikeRest(w) && meansAreThoseOfRest(w, gravity_mps2);
+  const bool at_rest = last_wheels_ - wheels_at_rest_since_ >= fromSeconds(params_.hold_off_s) && scattersLikeRest(w) &&
+                       meansAreThoseOfRest(w, gravity_mps2);
   if (at_rest) {
     rest_.add(w, interval_s, kRestMemory_s);
   }

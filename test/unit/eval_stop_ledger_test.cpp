@@ -17,7 +17,7 @@ struct Drive {
   static bool inSecond(double t_s) { return t_s > 30.0 && t_s <= 34.0; }
 
   StopLedger ledger() const {
-    StopLedger ledger(StationaryParams{}, 9.8);
+    StopLedger ledger(StationaryParams{}, ImuFloor{}, 9.8);
     std::mt19937 generator(7);
     std::normal_distribution<double> normal;
     for (int i = 1; i <= 3000; ++i) {

@@ -24,7 +24,7 @@ void add(StartRecording& recording, double from_s, double to_s, bool at_rest) {
 
 /// Fixes may only come after a first rest and its drive: then the next rest counts.
 TEST(StartRecording, ALaterRestTakesThePlaceOfTheFirst) {
-  StartRecording recording(StationaryParams{}, kGravity_mps2, 5.0, 60.0);
+  StartRecording recording(StationaryParams{}, ImuFloor{}, kGravity_mps2, 5.0, 60.0);
   add(recording, 100.0, 120.0, true);
   add(recording, 120.0, 140.0, false);
   EXPECT_TRUE(recording.rest().over);
@@ -38,7 +38,7 @@ TEST(StartRecording, ALaterRestTakesThePlaceOfTheFirst) {
 }
 
 TEST(StartRecording, AShortHaltInTheDriveIsNoRest) {
-  StartRecording recording(StationaryParams{}, kGravity_mps2, 5.0, 60.0);
+  StartRecording recording(StationaryParams{}, ImuFloor{}, kGravity_mps2, 5.0, 60.0);
   add(recording, 100.0, 120.0, true);
   add(recording, 120.0, 140.0, false);
   const Nanoseconds begin = recording.rest().begin;
@@ -48,7 +48,7 @@ TEST(StartRecording, AShortHaltInTheDriveIsNoRest) {
 }
 
 TEST(StartRecording, DoesNotGrowWithoutBound) {
-  StartRecording recording(StationaryParams{}, kGravity_mps2, 5.0, 60.0);
+  StartRecording recording(StationaryParams{}, ImuFloor{}, kGravity_mps2, 5.0, 60.0);
   add(recording, 100.0, 120.0, true);
   add(recording, 120.0, 1120.0, false);
   EXPECT_LT(toSeconds(recording.imu().back().stamp - recording.imu().front().stamp), 400.0);

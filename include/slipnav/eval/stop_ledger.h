@@ -26,7 +26,7 @@ struct StopCounts {
 /// moving rover dead are therefore no stop.
 class StopLedger {
  public:
-  StopLedger(const StationaryParams& stationary, double gravity_mps2);
+  StopLedger(const StationaryParams& stationary, const ImuFloor& floor, double gravity_mps2);
 
   void add(const ImuSample& sample);
   void add(const WheelMotion& wheels);

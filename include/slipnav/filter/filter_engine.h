@@ -128,16 +128,16 @@ class FilterEngine {
 
   RingQueue<InsStep> steps_;
   WheelQueue wheels_;
-  RingQueue<AntennaFix> fixes_;          ///< not yet applied, by stamp
+  RingQueue<AntennaFix> fixes_;  ///< not yet applied, by stamp
   SlippingSpeed slipping_speed_;
-  double last_forward_mps_ = 0.0;        ///< predicted, mean over the wheel interval before
-  double way_since_wheels_m_ = 0.0;      ///< of the surface, in the last wheel interval
-  double slow_envelope_ = 0.0;           ///< of the variance of slow slip in steady state
+  double last_forward_mps_ = 0.0;    ///< predicted, mean over the wheel interval before
+  double way_since_wheels_m_ = 0.0;  ///< of the surface, in the last wheel interval
+  double slow_envelope_ = 0.0;       ///< of the variance of slow slip in steady state
   double side_envelope_ = 0.0;
-  double slipping_way_m_ = 0.0;          ///< over which wheel speeds have contradicted
-  double surface_speed_mps_ = 0.0;       ///< of the wheels, last sample
-  MeanMotion average_;                   ///< over the wheel interval that is open
-  MeanMotion constraint_average_;        ///< over the wheel intervals since the last constraint
+  double slipping_way_m_ = 0.0;     ///< over which wheel speeds have contradicted
+  double surface_speed_mps_ = 0.0;  ///< of the wheels, last sample
+  MeanMotion average_;              ///< over the wheel interval that is open
+  MeanMotion constraint_average_;   ///< over the wheel intervals since the last constraint
   Estimate estimate_;
 };
 

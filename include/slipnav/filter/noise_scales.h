@@ -1,12 +1,13 @@
 #pragma once
 /// How much larger or smaller each kind of noise is than configured, learned from innovations.
 ///
-/// The logarithms θ of the factors on the configured variances are Gaussian, N(0, Σ₀) where nothing is known, and forget
-/// over the way driven. An innovation r of predicted variance S(θ) = S_rest + Σ Cᵢ exp(θᵢ) has the log-likelihood
-/// −½ (ln S + r²/S); its maximum a posteriori along Σg, gᵢ = Cᵢ/S, is the new θ, and ½ggᵀ (Fisher information of a
-/// variance) joins Σ⁻¹. What an innovation is made of decides what it can say: where Cᵢ is small against S, θᵢ stays.
-/// Covariance matching after R. K. Mehra, IEEE TAC 17(5), 1972; recursive in the manner of S. Särkkä, A. Nummenmaa, IEEE
-/// TAC 54(3), 2009, with a log-normal in place of the inverse gamma, so that noises that share an innovation share it.
+/// The logarithms θ of the factors on the configured variances are Gaussian, N(0, Σ₀) where nothing is known, and
+/// forget over the way driven. An innovation r of predicted variance S(θ) = S_rest + Σ Cᵢ exp(θᵢ) has the
+/// log-likelihood −½ (ln S + r²/S); its maximum a posteriori along Σg, gᵢ = Cᵢ/S, is the new θ, and ½ggᵀ (Fisher
+/// information of a variance) joins Σ⁻¹. What an innovation is made of decides what it can say: where Cᵢ is small
+/// against S, θᵢ stays. Covariance matching after R. K. Mehra, IEEE TAC 17(5), 1972; recursive in the manner of S.
+/// Särkkä, A. Nummenmaa, IEEE TAC 54(3), 2009, with a log-normal in place of the inverse gamma, so that noises that
+/// share an innovation share it.
 
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/types.h"
@@ -15,13 +16,13 @@ namespace slipnav {
 
 /// The noises that are learned.
 enum NoiseKind : int {
-  kWheelNoise = 0,   ///< white noise of the wheel speed
-  kFastSlipNoise,    ///< slip that changes within a meter
-  kSlowSlipNoise,    ///< slip that persists
-  kLateralNoise,     ///< sway of the body against its path
-  kSideSlipNoise,    ///< side slip that persists
-  kVerticalNoise,    ///< heave and pitch of the body against its path
-  kVibrationNoise,   ///< the part of the IMU's shaking that integrates like white noise
+  kWheelNoise = 0,  ///< white noise of the wheel speed
+  kFastSlipNoise,   ///< slip that changes within a meter
+  kSlowSlipNoise,   ///< slip that persists
+  kLateralNoise,    ///< sway of the body against its path
+  kSideSlipNoise,   ///< side slip that persists
+  kVerticalNoise,   ///< heave and pitch of the body against its path
+  kVibrationNoise,  ///< the part of the IMU's shaking that integrates like white noise
   kNoiseKinds
 };
 
@@ -58,7 +59,7 @@ class NoiseScales {
   void refresh();
 
   double length_m_;
-  NoiseVector prior_;       ///< mean of θ before anything is learned
+  NoiseVector prior_;  ///< mean of θ before anything is learned
   NoiseVector prior_variance_;
   NoiseVector theta_;
   Matrix sigma_;

@@ -6,9 +6,9 @@
 
 namespace slipnav {
 
-/// The smallest wheel speed of the last second. A wheel that loses its grip runs ahead for about as long, and so does not
-/// change what its slip is measured against: were it the present speed, or its mean, the end of each slip would look
-/// like a loss of vehicle speed. A rover that brakes takes it along at once.
+/// The smallest wheel speed of the last second. A wheel that loses its grip runs ahead for about as long, and so does
+/// not change what its slip is measured against: were it the present speed, or its mean, the end of each slip would
+/// look like a loss of vehicle speed. A rover that brakes takes it along at once.
 class SlippingSpeed {
  public:
   void reset() { lowest_.clear(); }

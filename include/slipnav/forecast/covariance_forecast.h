@@ -22,14 +22,14 @@ namespace slipnav {
 
 /// What is known of the ground, and expected of it over the horizon.
 struct GroundOutlook {
-  double speed_mps = 0.0;             ///< forward, over ground
-  double wheel_speed_mps = 0.0;       ///< circumferential, at the slip expected
-  double wheel_noise_variance = 0.0;  ///< of one wheel speed sample, uncorrelated [m²/s²]
-  double wheel_share = 1.0;           ///< of the wheel speeds that the filter uses: slip impulses are left out
-  double drift_std = 0.0;             ///< of the slip ratio that persists, 1σ
-  double change_std = 0.0;            ///< of the slip ratio that comes and goes, 1σ
+  double speed_mps = 0.0;               ///< forward, over ground
+  double wheel_speed_mps = 0.0;         ///< circumferential, at the slip expected
+  double wheel_noise_variance = 0.0;    ///< of one wheel speed sample, uncorrelated [m²/s²]
+  double wheel_share = 1.0;             ///< of the wheel speeds that the filter uses: slip impulses are left out
+  double drift_std = 0.0;               ///< of the slip ratio that persists, 1σ
+  double change_std = 0.0;              ///< of the slip ratio that comes and goes, 1σ
   std::optional<double> change_time_s;  ///< its time constant; none: the filter's own length
-  double side_slip_std_rad = 0.0;     ///< 1σ
+  double side_slip_std_rad = 0.0;       ///< 1σ
 };
 
 /// One step of driving, as it was or as it is expected.

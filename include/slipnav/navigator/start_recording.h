@@ -24,8 +24,8 @@ class StartRecording {
   /// @param min_rest_s a shorter standstill is forgotten; @param max_rest_s of a longer one the end is kept
   /// @param accel_bias_b, gyro_bias_b what is known of the biases before: a bias is no motion
   StartRecording(const StationaryParams& stationary, const ImuFloor& floor, double gravity_mps2, double min_rest_s,
-                 double max_rest_s,
-                 const Vector3& accel_bias_b = Vector3::Zero(), const Vector3& gyro_bias_b = Vector3::Zero());
+                 double max_rest_s, const Vector3& accel_bias_b = Vector3::Zero(),
+                 const Vector3& gyro_bias_b = Vector3::Zero());
 
   void clear();
   void retune(const StationaryParams& stationary) { detector_.retune(stationary); }

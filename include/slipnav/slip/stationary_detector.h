@@ -2,9 +2,9 @@
 /// Is the rover standing still? Encoders and the IMU both have to say so.
 ///
 /// The IMU's part after Skog, Händel, Nilsson, Rantakokko (2010): over a window, specific force and angular rate must
-/// not scatter more than at rest, about their own means, so that no bias matters; the means must be gravity and nothing,
-/// within what the sensor's biases may be. How much this rover's IMU scatters at rest and while driving (engine, fans,
-/// vibration) is learned, so that nothing depends on one sensor.
+/// not scatter more than at rest, about their own means, so that no bias matters; the means must be gravity and
+/// nothing, within what the sensor's biases may be. How much this rover's IMU scatters at rest and while driving
+/// (engine, fans, vibration) is learned, so that nothing depends on one sensor.
 
 #include <cstddef>
 #include <vector>
@@ -26,13 +26,14 @@ struct StationaryParams {
 
 /// What the data sheet says of the sensor, in SI units.
 struct ImuFloor {
-  double accel_density = 0.0;  ///< [m²/s³]
-  double gyro_density = 0.0;   ///< [rad²/s]
+  double accel_density = 0.0;   ///< [m²/s³]
+  double gyro_density = 0.0;    ///< [rad²/s]
   double accel_bias_std = 0.0;  ///< [m/s²]
   double gyro_bias_std = 0.0;   ///< [rad/s]
 };
 
-/// Keeps the IMU steps of the test window, since when the wheels have been at rest, and what rest and driving look like.
+/// Keeps the IMU steps of the test window, since when the wheels have been at rest, and what rest and driving look
+/// like.
 class StationaryDetector {
  public:
   StationaryDetector(const StationaryParams& params, const ImuFloor& floor);
