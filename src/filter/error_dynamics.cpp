@@ -118,7 +118,8 @@ void ErrorDynamics::rollOver(const GroundStep& ground, ErrorTransition& transiti
   const auto gaussMarkov = [&](int state, double variance, double length_m) {
     const double decay = std::exp(-ground.way_m / length_m);
     transition.decay(state - 9) = decay;
-    transition.noise(state) = variance * (1.0 - decay * decay);
+    // half of the noise goes in before the decay, see propagate(): this keeps σ² in steady state for any step
+    transition.noise(state) = 2.0 * variance * (1.0 - decay * decay) / (1.0 + decay * decay);
   };
   gaussMarkov(kSlowSlip, ground.slow_slip_variance, vehicle_.slow_slip_length_m);
   gaussMarkov(kFastSlip, ground.fast_slip_variance, vehicle_.fast_slip_length_m);

@@ -1,5 +1,7 @@
 #include "slipnav/filter/gated_update.h"
 
+#include <limits>
+
 namespace slipnav {
 
 GatedUpdate::GatedUpdate(const FilterParams& params)
@@ -21,9 +23,20 @@ double GatedUpdate::limit(const MeasurementSet::Block& block) const {
   return (zero ? zero_gate_ : gate_)[static_cast<std::size_t>(block.measurement.residual.size())];
 }
 
-double GatedUpdate::patience(const MeasurementSet::Block& block) const {
-  const bool zero = block.component == kZeroVelocity || block.component == kZeroRate;
-  return zero ? max_standstill_doubt_s_ : max_rejection_s_;
+/// How long a measurement may contradict before the state is doubted instead. Scrub and slip of one side contradict the
+/// gyro for long, and a receiver may be wrong for long: neither is worth opening the state for.
+double GatedUpdate::patience(Component component) const {
+  switch (component) {
+    case kZeroVelocity:
+    case kZeroRate:
+      return max_standstill_doubt_s_;
+    case kForwardSpeed:
+    case kLateral:
+    case kVertical:
+      return max_rejection_s_;
+    default:
+      return std::numeric_limits<double>::infinity();
+  }
 }
 
 bool GatedUpdate::passes(MeasurementSet::Block& block, Nanoseconds stamp, ErrorCovariance& P) {
@@ -45,7 +58,7 @@ bool GatedUpdate::passes(MeasurementSet::Block& block, Nanoseconds stamp, ErrorC
   if (status.rejected_since == 0) {
     status.rejected_since = stamp;
   }
-  if (toSeconds(stamp - status.rejected_since) >= patience(block)) {
+  if (toSeconds(stamp - status.rejected_since) >= patience(block.component)) {
     openCovariance(m, P);
     ++status.accepted;
     ++status.opened;

@@ -81,7 +81,7 @@ ErrorTransition CovarianceForecast::onGround(ErrorTransition transition, const D
   if (outlook.change_time_s) {
     const double decay = std::exp(-step_s_ / *outlook.change_time_s);
     transition.decay(kFastSlip - 9) = decay;
-    transition.noise(kFastSlip) = ground.fast_slip_variance * (1.0 - decay * decay);
+    transition.noise(kFastSlip) = 2.0 * ground.fast_slip_variance * (1.0 - decay * decay) / (1.0 + decay * decay);
   }
   return transition;
 }

@@ -72,12 +72,13 @@ MeasurementSet wheelMeasurements(const FilterSetup& setup, const Estimate& estim
   const VelocityJacobian H_v = bodyVelocityJacobian(estimate.nav, setup.lever_imu_to_reference_b);
   const double speed_mps = estimate.wheels.motion.forward_mps;
   MeasurementSet set;
-  set.add(kForwardSpeed, forwardSpeedMeasurement(setup.wheel, speed_mps, speed_mps, estimate.motion, H_v,
-                                                 estimate.vehicle, 0.0, estimate.slip_factor));
-  set.add(kYawRate, yawRateMeasurement(setup.wheel, 0.0, estimate.motion));
-  set.add(kLateral,
-          lateralMeasurement(setup.nonholonomic, estimate.motion, H_v, estimate.vehicle, estimate.side_slip_factor));
-  set.add(kVertical, verticalMeasurement(setup.nonholonomic, estimate.motion, H_v, estimate.vehicle));
+  set.add(kForwardSpeed, forwardSpeedMeasurement(setup.wheel, {speed_mps, speed_mps, 0.1, 0.0}, estimate.motion, H_v,
+                                                 estimate.vehicle, 0.0, estimate.noise_factors));
+  set.add(kYawRate, yawRateMeasurement(setup.wheel, 0.0, 0.1 * speed_mps, estimate.motion));
+  set.add(kLateral, lateralMeasurement(setup.nonholonomic, estimate.motion, H_v, estimate.vehicle,
+                                       estimate.noise_factors.lateral));
+  set.add(kVertical, verticalMeasurement(setup.nonholonomic, estimate.motion, H_v, estimate.vehicle,
+                                         estimate.noise_factors.vertical));
   return set;
 }
 

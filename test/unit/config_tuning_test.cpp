@@ -30,7 +30,7 @@ TEST(Tuning, NoParameterIsOfferedByTwo) {
 TEST(Tuning, OffersThresholdsAndNoiseButNothingThatTheStateWasMadeWith) {
   const std::set<std::string> keys = tunableKeys();
   for (const char* key : {"forecast.threshold_m", "filter.gate_alpha", "wheel.speed_std_mps", "stop.mode",
-                          "stationary.shoe_threshold", "nonholonomic.lateral_std_mps"}) {
+                          "stationary.accel_std_mps2", "nonholonomic.lateral_std_mps"}) {
     EXPECT_EQ(keys.count(key), 1U) << key;
   }
   for (const char* key : {"planet", "wheel.scrub_factor", "forecast.step_s", "filter.max_wait_s",

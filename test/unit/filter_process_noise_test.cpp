@@ -31,11 +31,11 @@ VehicleModelParams distinctVehicle() {
   VehicleModelParams vehicle;
   vehicle.wheel_scale_std = 0.011;
   vehicle.slow_slip_std = 0.12;
-  vehicle.slow_slip_time_s = 40.0;
+  vehicle.slow_slip_length_m = 40.0;
   vehicle.fast_slip_std = 0.08;
-  vehicle.fast_slip_time_s = 2.0;
+  vehicle.fast_slip_length_m = 2.0;
   vehicle.side_slip_std_deg = 3.0;
-  vehicle.side_slip_time_s = 15.0;
+  vehicle.side_slip_length_m = 15.0;
   vehicle.mount_pitch_std_deg = 0.4;
   vehicle.mount_yaw_std_deg = 0.5;
   return vehicle;
@@ -45,7 +45,11 @@ VehicleModelParams distinctVehicle() {
 ErrorTransition transitionInFreeFall(const ErrorDynamics& dynamics, double duration_s) {
   NavigationState state;
   state.position = {degToRad(45.0), 0.0, 0.0};
-  return dynamics.transition(state, state, Vector3::Zero(), Vector3::Zero(), duration_s);
+  ErrorTransition t = dynamics.transition(state, state, Vector3::Zero(), Vector3::Zero(), duration_s);
+  GroundStep ground = dynamics.ground();
+  ground.way_m = duration_s;  // at 1 m/s
+  dynamics.rollOver(ground, t);
+  return t;
 }
 
 /// P after `duration_s` from P = 0.
@@ -85,9 +89,9 @@ TEST(ProcessNoise, TheWholeTransitionHoldsItsParts) {
   EXPECT_DOUBLE_EQ(phi(kGyroBias + 2, kGyroBias + 2), 1.0);
   EXPECT_DOUBLE_EQ(phi(kWheelScale, kWheelScale), 1.0);
   EXPECT_DOUBLE_EQ(phi(kYawScale, kYawScale), 1.0);
-  EXPECT_NEAR(phi(kSlowSlip, kSlowSlip), std::exp(-0.5 / 40.0), 1e-5);
+  EXPECT_NEAR(phi(kSlowSlip, kSlowSlip), std::exp(-0.5 / 40.0), 1e-12);
   EXPECT_NEAR(phi(kFastSlip, kFastSlip), std::exp(-0.5 / 2.0), 1e-12);
-  EXPECT_NEAR(phi(kSideSlip, kSideSlip), std::exp(-0.5 / 15.0), 1e-4);
+  EXPECT_NEAR(phi(kSideSlip, kSideSlip), std::exp(-0.5 / 15.0), 1e-12);
   EXPECT_EQ((phi.bottomLeftCorner<kErrorStates - 9, 9>()).norm(), 0.0);
 }
 
@@ -180,27 +184,17 @@ TEST(ProcessNoise, EstimatesOfGaussMarkovStatesFade) {
   EXPECT_EQ(vehicle.mount_yaw_rad, 0.5);
 }
 
-TEST(ProcessNoise, ALoosenedSlipIsUnknownAndUncorrelated) {
-  VehicleModelParams vehicle = distinctVehicle();
-  vehicle.slip_impulse_std = 0.25;
-  sim::RandomStream random(2, "impulse");
-  ErrorCovariance P = randomCovariance(random);
-  const ErrorCovariance before = P;
-  ErrorDynamics(Planet::byName("earth"), silentImu(), vehicle).loosenFastSlip(P);
-  EXPECT_NEAR(P(kFastSlip, kFastSlip), 0.0625, 1e-15);
-  EXPECT_NEAR(P.row(kFastSlip).norm(), 0.0625, 1e-15);
-  EXPECT_NEAR(P.col(kFastSlip).norm(), 0.0625, 1e-15);
-  ErrorCovariance others = P - before;
-  others.row(kFastSlip).setZero();
-  others.col(kFastSlip).setZero();
-  EXPECT_EQ(others.norm(), 0.0);
-}
-
-TEST(ProcessNoise, GyroNoiseDensityIsTheSquareOfTheRandomWalk) {
-  ImuNoiseParams imu = silentImu();
-  imu.gyro_noise_deg_per_sqrt_h = 0.3;
-  const ErrorDynamics dynamics(Planet::byName("earth"), imu, distinctVehicle());
-  EXPECT_NEAR(std::sqrt(dynamics.gyroNoiseDensity()), degToRad(0.3) / 60.0, 1e-15);
+/// Slip belongs to the ground: a rover at rest keeps it, and what it knows of it.
+TEST(ProcessNoise, SlipStaysWhileTheRoverStands) {
+  const ErrorDynamics dynamics(Planet::byName("earth"), silentImu(), distinctVehicle());
+  ErrorTransition t = dynamics.transition({}, {}, Vector3::Zero(), Vector3::Zero(), 10.0);
+  dynamics.rollOver(dynamics.ground(), t);
+  VehicleState vehicle{0.0, 0.3, 0.2, 0.1, 0.0, 0.0};
+  ErrorDynamics::decay(t, vehicle);
+  EXPECT_EQ(vehicle.slow_slip, 0.3);
+  EXPECT_EQ(vehicle.fast_slip, 0.2);
+  EXPECT_EQ(t.noise(kSlowSlip), 0.0);
+  EXPECT_EQ(t.noise(kSideSlip), 0.0);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ TEST(MeasurementJacobian, ForwardSpeed) {
 }
 
 TEST(MeasurementJacobian, YawRate) {
-  const Model model = [](const Point& p) { return yawRateMeasurement({}, 0.2, motionOf(p)); };
+  const Model model = [](const Point& p) { return yawRateMeasurement({}, 0.2, 0.1, motionOf(p)); };
   expectJacobian("yaw rate", model, {kGyroBias + 2});
 }
 
@@ -109,7 +109,7 @@ TEST(MeasurementJacobian, Lateral) {
 
 TEST(MeasurementJacobian, Vertical) {
   const Model model = [](const Point& p) {
-    return verticalMeasurement({}, motionOf(p), velocityJacobian(p), p.vehicle);
+    return verticalMeasurement({}, motionOf(p), velocityJacobian(p), p.vehicle, 1.0);
   };
   expectJacobian("vertical", model, {});
   sim::RandomStream random(2, "columns");
@@ -184,8 +184,8 @@ TEST(MeasurementResidual, IsZeroAtTheTruth) {
     const double slip = p.vehicle.wheel_scale + p.vehicle.slow_slip + p.vehicle.fast_slip;
     EXPECT_NEAR(steadyWheelSpeed({}, v_x / (1.0 - slip), motion, p.nav, p.vehicle, p.lever_b).residual(0), 0.0, 1e-15);
     EXPECT_NEAR(lateralMeasurement({}, motion, velocityJacobian(p), p.vehicle, 1.0).residual(0), 0.0, 1e-15);
-    EXPECT_NEAR(verticalMeasurement({}, motion, velocityJacobian(p), p.vehicle).residual(0), 0.0, 1e-15);
-    EXPECT_NEAR(yawRateMeasurement({}, motion.omega_ib_b.z(), motion).residual(0), 0.0, 1e-15);
+    EXPECT_NEAR(verticalMeasurement({}, motion, velocityJacobian(p), p.vehicle, 1.0).residual(0), 0.0, 1e-15);
+    EXPECT_NEAR(yawRateMeasurement({}, motion.omega_ib_b.z(), 0.1, motion).residual(0), 0.0, 1e-15);
 
     p.nav.v_eb_n.setZero();
     EXPECT_EQ(zeroVelocityMeasurement(1e-6, p.nav).residual.norm(), 0.0);

@@ -60,7 +60,7 @@ TEST(MeasurementSigns, SlipTakesFromTheWheelsSpeed) {
 TEST(MeasurementSigns, WheelsThatTurnLessThanTheGyroRaiseItsBias) {
   BodyMotion turning = kDriving;
   turning.omega_ib_b.z() = 0.2;
-  const Measurement m = yawRateMeasurement({}, 0.1, turning);
+  const Measurement m = yawRateMeasurement({}, 0.1, 0.1, turning);
   EXPECT_NEAR(m.residual(0), -0.1, 1e-12);
   EXPECT_GT(corrected(m, eastbound()).gyro_bias_b.z(), 0.0);
 }
@@ -78,7 +78,7 @@ TEST(MeasurementSigns, ASinkingVelocityIsTakenBack) {
   NavigationState state = eastbound();
   state.v_eb_n.z() = 0.1;
   const BodyMotion motion{0.1, Vector3(kSpeed, 0.0, 0.1), Vector3::Zero()};
-  const Measurement m = verticalMeasurement({}, motion, jacobian(state), {});
+  const Measurement m = verticalMeasurement({}, motion, jacobian(state), {}, 1.0);
   EXPECT_NEAR(m.residual(0), -0.1, 1e-12);
   EXPECT_LT(corrected(m, state).v_eb_n.z(), 0.1);
 }
@@ -124,8 +124,11 @@ TEST(MeasurementNoise, GrowsWithSpeedAndTurns) {
   motion.omega_ib_b = Vector3(0.3, 0.4, 0.2);
   const NavigationState state = eastbound();
   EXPECT_NEAR(steadyWheelSpeed(wheel, kSpeed, motion, state, {}, Vector3::Zero()).variance(0),
-              0.02 * 0.02 + std::pow(0.1 * kSpeed, 2), 1e-12);
-  EXPECT_NEAR(yawRateMeasurement(wheel, 0.0, motion).variance(0), std::pow(degToRad(2.0), 2) + 0.1 * 0.1, 1e-12);
+              0.02 * 0.02 + std::pow(0.1 * kSpeed, 2) * 0.1 / (0.1 * kSpeed), 1e-12);
+  wheel.yaw_rate_length_m = 2.0;
+  const double heading_rate = std::pow(degToRad(2.0), 2) + 0.1 * 0.1;
+  EXPECT_NEAR(yawRateMeasurement(wheel, 0.0, 0.1, motion).variance(0), 20.0 * heading_rate, 1e-12);
+  EXPECT_NEAR(yawRateMeasurement(wheel, 0.0, 5.0, motion).variance(0), heading_rate, 1e-12);
   NonholonomicParams ground;
   ground.lateral_std_mps = 0.01;
   ground.lateral_slope_std = 0.02;
@@ -136,9 +139,28 @@ TEST(MeasurementNoise, GrowsWithSpeedAndTurns) {
   const double v_x = motion.v_eb_b.x();
   ASSERT_GT(v_x, 0.1);
   EXPECT_NEAR(lateralMeasurement(ground, motion, jacobian(state), {}, 0.25).variance(0),
-              0.01 * 0.01 + 0.25 * std::pow(0.02 * v_x, 2) + 0.06 * 0.06, 1e-12);
-  EXPECT_NEAR(verticalMeasurement(ground, motion, jacobian(state), {}).variance(0),
-              0.03 * 0.03 + std::pow(0.04 * v_x, 2) + 0.1 * 0.1, 1e-12);
+              0.25 * (0.01 * 0.01 + std::pow(0.02 * v_x, 2) + 0.06 * 0.06), 1e-12);
+  EXPECT_NEAR(verticalMeasurement(ground, motion, jacobian(state), {}, 4.0).variance(0),
+              4.0 * (0.03 * 0.03 + std::pow(0.04 * v_x, 2) + 0.1 * 0.1), 1e-12);
+}
+
+/// Encoders of any rate say the same together: information is a density in time for noise, in way for slip.
+TEST(MeasurementNoise, OfManyShortIntervalsIsThatOfALongOne) {
+  const auto variance = [](double duration_s) {
+    BodyMotion motion = kDriving;
+    motion.duration_s = duration_s;
+    return forwardSpeedMeasurement({}, {kSpeed, kSpeed, duration_s, 0.0}, motion, jacobian(eastbound()), {}, 0.0, {})
+        .variance(0);
+  };
+  EXPECT_NEAR(variance(0.01) / 100.0, variance(1.0), 1e-12);
+}
+
+TEST(MeasurementNoise, ConstraintsOverLittleWayHoldLittleInformation) {
+  NonholonomicParams params;
+  params.length_m = 2.0;
+  EXPECT_EQ(constraintInformation(params, 3.0), 1.0);
+  EXPECT_EQ(constraintInformation(params, 0.5), 0.25);
+  EXPECT_GT(constraintInformation(params, 0.0), 0.0);
 }
 
 TEST(PositionFixModel, PullsTheImuThroughTheLeverArm) {

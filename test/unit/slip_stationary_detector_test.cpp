@@ -23,7 +23,6 @@ StationaryParams params() {
   params.wheel_speed_mps = 0.001;
   params.accel_std_mps2 = 0.05;
   params.gyro_std_deg_per_s = 0.3;
-  params.shoe_threshold = 9.0;
   return params;
 }
 
@@ -38,13 +37,13 @@ class StationaryDetectorTest : public ::testing::Test {
     for (int i = 0; i < count; ++i) {
       const double t_s = static_cast<double>(++index_) * kImuPeriod_s;
       const Vector3 f_b = Vector3(0.5, -0.3, -std::sqrt(kGravity * kGravity - 0.34)) +
-                          params().accel_std_mps2 * random_.normal3() + Vector3(accel_x(t_s), 0.0, 0.0);
+                          params().accel_std_mps2 / 3.0 * random_.normal3() + Vector3(accel_x(t_s), 0.0, 0.0);
       const Vector3 omega_b =
-          degToRad(params().gyro_std_deg_per_s) * random_.normal3() + Vector3(0.0, 0.0, rate_z(t_s));
+          degToRad(params().gyro_std_deg_per_s) / 3.0 * random_.normal3() + Vector3(0.0, 0.0, rate_z(t_s));
       detector_.addImu(fromSeconds(1000.0 + t_s), f_b, omega_b);
       if (index_ % kImuPerWheels == 0) {
         detector_.addWheels(fromSeconds(1000.0 + t_s), wheels(t_s));
-        verdict_ = detector_.isStationary(kGravity);
+        verdict_ = detector_.judge(kGravity);
         stationary_count_ += verdict_ ? 1 : 0;
       }
     }
@@ -52,7 +51,7 @@ class StationaryDetectorTest : public ::testing::Test {
   void rest(double duration_s) { run(duration_s, kNone, kNone, kNone); }
 
   const Signal kNone = [](double) { return 0.0; };
-  StationaryDetector detector_{params()};
+  StationaryDetector detector_{params(), ImuFloor{}};
   sim::RandomStream random_{1, "detector"};
   int index_ = 0;
   bool verdict_ = false;
@@ -65,15 +64,14 @@ TEST_F(StationaryDetectorTest, RestIsFound) {
   EXPECT_TRUE(detector_.wheelsAtRest());
 }
 
-/// Skog et al.: six squared deviations a sample, less what the mean direction takes up.
-TEST_F(StationaryDetectorTest, StatisticOfItsOwnNoiseIsAboutSix) {
-  rest(1.0);
-  double sum = 0.0;
-  for (int i = 0; i < 200; ++i) {
-    rest(0.3);
-    sum += detector_.shoeStatistic(kGravity);
-  }
-  EXPECT_NEAR(sum / 200.0, 6.0, 0.3);
+/// The noise of a rest about its own mean, whatever the biases.
+TEST_F(StationaryDetectorTest, WindowTellsMeanAndScatter) {
+  rest(10.0);
+  const StationaryDetector::Window window = detector_.window();
+  EXPECT_TRUE(window.filled);
+  EXPECT_NEAR(std::sqrt(window.accel_variance), params().accel_std_mps2 / 3.0, 0.006);
+  EXPECT_NEAR(window.f_ib_b.norm(), kGravity, 0.03);
+  EXPECT_NEAR(window.period_s, kImuPeriod_s, 0.002);
 }
 
 TEST_F(StationaryDetectorTest, TurningWheelsAreNoRest) {
@@ -108,14 +106,14 @@ TEST_F(StationaryDetectorTest, AForceThatIsNotGravityIsNoRest) {
 }
 
 TEST_F(StationaryDetectorTest, WindowHasToBeFilled) {
-  EXPECT_TRUE(std::isinf(detector_.shoeStatistic(kGravity)));
+  EXPECT_FALSE(detector_.window().filled);
   rest(0.2);
-  EXPECT_TRUE(std::isinf(detector_.shoeStatistic(kGravity)));
+  EXPECT_FALSE(detector_.window().filled);
   rest(0.2);
-  EXPECT_FALSE(std::isinf(detector_.shoeStatistic(kGravity)));
+  EXPECT_TRUE(detector_.window().filled);
   detector_.reset();
-  EXPECT_TRUE(std::isinf(detector_.shoeStatistic(kGravity)));
-  EXPECT_FALSE(detector_.isStationary(kGravity));
+  EXPECT_FALSE(detector_.window().filled);
+  EXPECT_FALSE(detector_.judge(kGravity));
 }
 
 TEST_F(StationaryDetectorTest, WheelsHaveToHaveRestedForTheHoldOff) {
@@ -130,11 +128,40 @@ TEST_F(StationaryDetectorTest, WheelsHaveToHaveRestedForTheHoldOff) {
 TEST_F(StationaryDetectorTest, AFastImuStillFillsTheWindow) {
   StationaryParams longest = params();
   longest.window_s = 2.0;
-  StationaryDetector detector(longest);
+  StationaryDetector detector(longest, ImuFloor{});
   for (int i = 0; i < 2500; ++i) {  // 1 kHz: the ring holds the whole window
     detector.addImu(fromSeconds(10.0 + 1e-3 * i), Vector3(0.0, 0.0, -kGravity), Vector3::Zero());
   }
-  EXPECT_NEAR(detector.shoeStatistic(kGravity), 0.0, 1e-6);
+  EXPECT_TRUE(detector.window().filled);
+  EXPECT_NEAR(detector.window().accel_variance, 0.0, 1e-12);
+}
+
+/// A gyro bias that the data sheet allows for is no turn.
+TEST_F(StationaryDetectorTest, ABiasIsNoMotion) {
+  ImuFloor floor;
+  floor.gyro_bias_std = degToRad(1.0);
+  detector_ = StationaryDetector(params(), floor);
+  run(
+      2.0, kNone, [](double) { return degToRad(3.0); }, kNone);
+  EXPECT_TRUE(verdict_);
+  run(
+      2.0, kNone, [](double) { return degToRad(8.0); }, kNone);
+  EXPECT_FALSE(verdict_);
+}
+
+/// With an engine that shakes the rover at rest: beyond the parameters, but far calmer than driving.
+TEST_F(StationaryDetectorTest, RestWithARunningEngineIsFoundAgain) {
+  const Signal engine = [](double t_s) { return 0.25 * std::sin(150.0 * t_s); };
+  const Signal rough = [](double t_s) { return 3.0 * std::sin(40.0 * t_s); };
+  const Signal turning = [](double t_s) { return 0.3 * std::sin(30.0 * t_s); };
+  run(5.0, engine, kNone, kNone);
+  EXPECT_TRUE(verdict_);
+  run(10.0, rough, turning, [](double) { return 0.5; });
+  EXPECT_FALSE(verdict_);
+  run(2.0, engine, kNone, kNone);
+  EXPECT_TRUE(verdict_);
+  run(2.0, rough, turning, kNone);  // encoders dead, rover moving
+  EXPECT_FALSE(verdict_);
 }
 
 /// One encoder that is stuck at zero does not fake a stop: the fastest wheel counts.
@@ -151,11 +178,12 @@ TEST_F(StationaryDetectorTest, OtherLimitsHoldAtOnceForTheSamplesSoFar) {
   rest(2.0);
   ASSERT_TRUE(verdict_);
   StationaryParams strict = params();
-  strict.shoe_threshold = 1.0;
+  strict.accel_std_mps2 = 1e-4;
+  strict.gyro_std_deg_per_s = 1e-3;
   detector_.retune(strict);
-  EXPECT_FALSE(detector_.isStationary(kGravity));
+  EXPECT_FALSE(detector_.judge(kGravity));
   detector_.retune(params());
-  EXPECT_TRUE(detector_.isStationary(kGravity));
+  EXPECT_TRUE(detector_.judge(kGravity));
 }
 
 }  // namespace

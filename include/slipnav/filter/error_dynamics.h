@@ -74,7 +74,7 @@ class ErrorDynamics {
                              const Vector3& omega_ib_b, double duration_s) const;
 
   /// Lets the slip states fade and change over the way of a step: a Gauss–Markov process of variance σ² and length L
-  /// decays by exp(−w/L) and gains σ²(1 − exp(−2w/L)). Slip belongs to the ground: a rover at rest keeps it.
+  /// decays by exp(−w/L) over a way w and keeps σ². Slip belongs to the ground: a rover at rest keeps it.
   void rollOver(const GroundStep& ground, ErrorTransition& transition) const;
 
   /// Steady-state variances of slow, fast and side slip by the parameters.

@@ -47,7 +47,7 @@ class GatedUpdate {
 
  private:
   bool passes(MeasurementSet::Block& block, Nanoseconds stamp, ErrorCovariance& P);
-  double patience(const MeasurementSet::Block& block) const;
+  double patience(Component component) const;
   double limit(const MeasurementSet::Block& block) const;
 
   double max_rejection_s_;
