@@ -17,7 +17,7 @@ constexpr double kLevelKnown_s = 1.0;
 constexpr double kRestFactor = 3.0;
 /// Rest is at least so much calmer than driving.
 constexpr double kCalmerThanDriving = 3.0;
-/// Before the wheels have ever turned: an engine may run.
+/// Before the wheels have ever turned, and before any rest is known: an engine may run.
 constexpr double kBeforeDriving = 6.0;
 constexpr double kNoiseFactor = 2.0;
 constexpr double kBiasSigmas = 4.0;
@@ -112,7 +112,8 @@ StationaryDetector::Window StationaryDetector::window() const {
 }
 
 bool StationaryDetector::scattersLikeRest(const Window& w) const {
-  const double freedom = has_driven_ ? 1.0 : kBeforeDriving;
+  const bool rest_known = rest_.time_s >= kLevelKnown_s;
+  const double freedom = has_driven_ || rest_known ? 1.0 : kBeforeDriving;
   double accel = square(freedom * params_.accel_std_mps2);
   double gyro = square(freedom * degToRad(params_.gyro_std_deg_per_s));
   accel = std::max(accel, square(kNoiseFactor) * floor_.accel_density / w.period_s);
@@ -120,7 +121,7 @@ bool StationaryDetector::scattersLikeRest(const Window& w) const {
   const bool drive_known = drive_.time_s >= kLevelKnown_s;
   const double calm_accel = drive_.accel_variance / square(kCalmerThanDriving);
   const double calm_gyro = drive_.gyro_variance / square(kCalmerThanDriving);
-  if (rest_.time_s >= kLevelKnown_s) {
+  if (rest_known) {
     accel = std::max(square(kRestFactor) * rest_.accel_variance, drive_known ? std::min(accel, calm_accel) : accel);
     gyro = std::max(square(kRestFactor) * rest_.gyro_variance, drive_known ? std::min(gyro, calm_gyro) : gyro);
   } else if (drive_known) {

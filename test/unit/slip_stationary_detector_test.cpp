@@ -178,8 +178,7 @@ TEST_F(StationaryDetectorTest, OtherLimitsHoldAtOnceForTheSamplesSoFar) {
   rest(2.0);
   ASSERT_TRUE(verdict_);
   StationaryParams strict = params();
-  strict.accel_std_mps2 = 1e-4;
-  strict.gyro_std_deg_per_s = 1e-3;
+  strict.hold_off_s = 60.0;
   detector_.retune(strict);
   EXPECT_FALSE(detector_.judge(kGravity));
   detector_.retune(params());
