@@ -15,7 +15,16 @@ constexpr double kPriorLengths = 10.0;
 /// Way between innovations of the wheel speed, and between those of the constraints [m].
 constexpr double kWheelInterval_m = 0.1;
 constexpr double kConstraintInterval_m = 1.0;
-constexpr double kLargestTheta = 9.0;
+constexpr double kLeastTheta = -9.0;
+
+/// What noise of this kind can be at most: beyond it a contradiction is about the state. An encoder may be ninety times
+/// as coarse as configured; a body does not pitch by more than a tenth about its path, nor slip by more than a third
+/// for long.
+const NoiseVector& largestTheta() {
+  static const NoiseVector largest = (NoiseVector() << 9.0, 2.2, 3.2, 4.2, 3.2, 4.2, 0.0).finished();
+  return largest;
+}
+
 constexpr int kNewtonSteps = 4;
 
 /// α that maximizes −½α²q − ½(ln S(α) + r²/S(α)), with S(α) = S + Σ Cᵢ (exp(α dᵢ) − 1).
@@ -83,8 +92,7 @@ void NoiseScales::learn(const NoiseVector& shares, double squared, double varian
     return;
   }
   theta_ += mostProbable(shares, direction, q, std::min(squared, kLargestNis * variance), variance) * direction;
-  theta_ = theta_.cwiseMax(-kLargestTheta).cwiseMin(kLargestTheta);
-  theta_(kVibrationNoise) = std::min(theta_(kVibrationNoise), 0.0);
+  theta_ = theta_.cwiseMax(kLeastTheta).cwiseMin(largestTheta());
   sigma_ -= direction * direction.transpose() / (2.0 + q);
   refresh();
 }
