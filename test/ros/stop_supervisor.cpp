@@ -186,7 +186,7 @@ TEST_F(SupervisorTest, WithoutEstimatesAStopGoesOnWithinItsLimitAndThenCommandsP
   start("/lost", "active");
   ASSERT_TRUE(waitUntil([this] { return commands_.getNumSubscribers() > 0; }));
   stopTheRover();
-  EXPECT_TRUE(waitUntil([this] { return status_.state == StopStatus::DRIVING; }));
+  EXPECT_TRUE(waitUntil([this] { return status_.state == StopStatus::DRIVING; }, 40.0));
   EXPECT_EQ(status_.reason, "no estimates");
   EXPECT_TRUE(waitUntil([this] { return command(0.5) == 0.5; })) << "by a ramp";
 }

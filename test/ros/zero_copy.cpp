@@ -368,11 +368,12 @@ TEST_F(ZeroCopyDrive, EveryTopicPassesTheVeryObjects) {
 
 TEST_F(ZeroCopyDrive, NoTopicIsWithoutAProbe) {
   // TF and diagnostics are for others, and published by libraries of theirs. Tuning is there when somebody tunes;
-  // nobody requests a start in this drive.
+  // nobody requests a start or an emergency stop in this drive.
   std::set<std::string> known = {"/rosout",
                                  "/tf",
                                  "/tf_static",
                                  node_.resolveName(config_.topics.diagnostics),
+                                 node_.resolveName(config_.topics.e_stop),
                                  node_.resolveName(kTuningTopic),
                                  node_.resolveName(kStartRequestTopic)};
   for (const std::string tuned : {"/Filter", "/Forecast", "/StopSupervisor"}) {
