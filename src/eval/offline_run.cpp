@@ -32,7 +32,8 @@ OfflineRun::OfflineRun(const Config& config, bool with_baselines)
       planet_(Planet::byName(config.planet)),
       pipeline_(planet_, config.navigation(),
                 [this](const Estimate& estimate, const ErrorCovariance& P) { record(estimate, P); }),
-      stops_(config.stationary, imuFloor(config.imu.noise), planet_.gravity_n(startingPlace(config.initialization)).norm()) {
+      stops_(config.stationary, imuFloor(config.imu.noise),
+             planet_.gravity_n(startingPlace(config.initialization)).norm()) {
   if (with_baselines) {
     without_zupt_ = std::make_unique<OfflineRun>(withoutZeroUpdates(config), false);
     forecasts_.emplace(config);
