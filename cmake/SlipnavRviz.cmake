@@ -10,6 +10,7 @@ if(rviz_FOUND AND Qt5Widgets_FOUND AND TARGET slipnav_ros)
   # boost's signals and Qt's keywords do not go together.
   target_compile_definitions(slipnav_rviz PRIVATE QT_NO_KEYWORDS)
   target_include_directories(slipnav_rviz PUBLIC "${PROJECT_SOURCE_DIR}/src/rviz")
+  #catkin_lint: ignore_once external_interface_path
   target_include_directories(slipnav_rviz SYSTEM PUBLIC ${rviz_INCLUDE_DIRS} ${Qt5Widgets_INCLUDE_DIRS})
   target_link_libraries(slipnav_rviz PUBLIC slipnav_ros ${rviz_LIBRARIES} ${Qt5Widgets_LIBRARIES})
   install(TARGETS slipnav_rviz

@@ -40,9 +40,10 @@ class NoiseAdaptation {
   /// Density of the gyros' noise, with all that shakes them, mean over the axes [rad²/s].
   double gyroDensity() const;
 
-  /// A forward speed, a mean lateral or a mean vertical speed was compared.
-  /// @param own_variance R of the measurement
+  /// A forward speed was compared.
   void learnForward(const WheelOdometryParams& params, const WheelInterval& wheels, const Innovation1& innovation);
+  /// A mean lateral or vertical speed was compared.
+  /// @param own_variance R of the measurement
   void learnLateral(double own_variance, const Innovation1& innovation);
   void learnVertical(double own_variance, const Innovation1& innovation);
   void constraintsUsed();
