@@ -44,8 +44,6 @@ if(ros_sources)
   list(APPEND exported_libraries slipnav_ros)
 endif()
 
-# rviz is needed by the panel alone, not by who links the libraries.
-#catkin_lint: ignore_once missing_catkin_depend
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES ${exported_libraries}
