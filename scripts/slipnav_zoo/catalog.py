@@ -40,7 +40,7 @@ REAL = (
     ForeignDrive("husky_mocap_origin3", ("husky_mocap_datasheet.yaml",), 0.9),
     ForeignDrive("real_penn_20", ("real_penn_datasheet.yaml",), 0.6),
     ForeignDrive("real_ugv_indoor", ("real_ugv_indoor_datasheet.yaml",), 0.28),
-    ForeignDrive("husky_parking_lot", ("husky_parking_lot_datasheet.yaml",), largest_final_m=6.0),
+    ForeignDrive("husky_parking_lot", ("husky_parking_lot.yaml",), largest_final_m=6.0),
 )
 
 ALL = SIMULATED + REAL
