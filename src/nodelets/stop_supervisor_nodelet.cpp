@@ -225,6 +225,14 @@ class StopSupervisorNodelet : public CoreNodelet {
     last_time_ = time;
     if (estimates_lost_ || !estimates_watch_->hasHeard()) {
       supervisor_->passTime(fromSeconds(std::clamp(elapsed_s, 0.0, kLongestTick_s)));
+      reportChange();
+    }
+  }
+
+  /// Nothing else says that a stop has ended while there are no estimates.
+  void reportChange() {
+    if (supervisor_->status().state != reported_) {
+      report();
     }
   }
 
