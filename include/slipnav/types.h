@@ -19,6 +19,8 @@ using Quaternion = Eigen::Quaterniond;
 using Nanoseconds = std::int64_t;
 
 inline constexpr Nanoseconds kSecond = 1'000'000'000;
+/// Stamps of one source that go back by this much mean that it has started anew.
+inline constexpr Nanoseconds kRestartBackstep = kSecond;
 
 inline constexpr double kPi = 3.14159265358979323846;
 

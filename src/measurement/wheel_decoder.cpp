@@ -21,18 +21,28 @@ std::optional<WheelSample> WheelDecoder::decode(const JointArrays& joints) {
   if (isOfOtherJoints(joints) || !locate(joints)) {
     return std::nullopt;
   }
-  if (!by_positions_ && !joints.position_rad.empty() && !joints.velocity_radps.empty() && !hasVelocities(joints)) {
-    usePositions("has velocities that are not finite numbers");
+  if (joints.stamp <= seen_.newest - kRestartBackstep) {
+    seen_ = Seen();
   }
-  if (by_positions_ || joints.velocity_radps.empty()) {
-    return fromPositions(joints);
+  seen_.newest = std::max(seen_.newest, joints.stamp);
+  const bool has_positions = !joints.position_rad.empty();
+  const bool has_velocities = !joints.velocity_radps.empty();
+  const std::optional<WheelSample> by_position =
+      has_positions || !has_velocities ? fromPositions(joints) : std::nullopt;
+  if (!has_velocities || seen_.filled_in) {
+    return by_position;
   }
+  if (has_positions && !areFinite(joints)) {
+    remark_ = seen_.not_finite ? "" : "has velocities that are not finite numbers: positions are used instead";
+    seen_.not_finite = true;
+    return by_position;
+  }
+  problem_.clear();  // it is the velocities that count
   const std::optional<WheelSample> rates = pick(joints, joints.velocity_radps, "velocity");
   if (!rates) {
     return std::nullopt;
   }
-  const std::optional<WheelSample> better = insteadOfStanding(joints, *rates);
-  return better ? better : possible(*rates, "turns too fast");
+  return areFilledIn(*rates, by_position) ? by_position : possible(*rates, "turns too fast");
 }
 
 /// Wheels that are not among the joints of this message, but have been or may be among those of another.
@@ -47,37 +57,27 @@ bool WheelDecoder::isOfOtherJoints(const JointArrays& joints) {
 }
 
 /// Whether all wheels have a velocity that is a number. Arrays of a wrong length are judged elsewhere.
-bool WheelDecoder::hasVelocities(const JointArrays& joints) const {
+bool WheelDecoder::areFinite(const JointArrays& joints) const {
   return std::all_of(indices_.begin(), indices_.end(), [&joints](std::size_t i) {
     return i >= joints.velocity_radps.size() || std::isfinite(joints.velocity_radps[i]);
   });
 }
 
-void WheelDecoder::usePositions(const std::string& why) {
-  by_positions_ = true;
-  remark_ = why + ": positions are used instead";
-}
-
-/// Rates by positions, once the velocities have turned out to be always zero while the positions move.
-std::optional<WheelSample> WheelDecoder::insteadOfStanding(const JointArrays& joints, const WheelSample& rates) {
+/// Whether the velocities have turned out to be always zero while the positions move.
+bool WheelDecoder::areFilledIn(const WheelSample& rates, const std::optional<WheelSample>& by_position) {
   const auto isZero = [](double rate) { return rate == 0.0; };
-  velocity_seen_ = velocity_seen_ || !std::all_of(rates.rate_radps.begin(), rates.rate_radps.end(), isZero);
-  if (velocity_seen_ || joints.position_rad.empty()) {
-    return std::nullopt;
-  }
-  std::optional<WheelSample> by_position = fromPositions(joints);
-  problem_.clear();  // so far it is the velocities that count
-  if (!by_position) {
-    return std::nullopt;
+  seen_.velocity = seen_.velocity || !std::all_of(rates.rate_radps.begin(), rates.rate_radps.end(), isZero);
+  if (seen_.velocity || !by_position) {
+    return false;
   }
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
-    turned_rad_ += std::abs(by_position->rate_radps[i]) * interval_s_ / static_cast<double>(wheels_.size());
+    seen_.turned_rad += std::abs(by_position->rate_radps[i]) * seen_.interval_s / static_cast<double>(wheels_.size());
   }
-  if (turned_rad_ <= kTurnedWithoutVelocity_rad) {
-    return std::nullopt;
+  seen_.filled_in = seen_.turned_rad > kTurnedWithoutVelocity_rad;
+  if (seen_.filled_in) {
+    remark_ = "has velocities that are always 0 while the positions move: positions are used instead";
   }
-  usePositions("has velocities that are always 0 while the positions move");
-  return by_position;
+  return seen_.filled_in;
 }
 
 bool WheelDecoder::locate(const JointArrays& joints) {
@@ -130,16 +130,16 @@ std::optional<WheelSample> WheelDecoder::fromPositions(const JointArrays& joints
   if (!angles) {
     return std::nullopt;
   }
-  const std::optional<WheelSample> before = last_;
-  last_ = angles;
+  const std::optional<WheelSample> before = seen_.angles;
+  seen_.angles = angles;
   noteRange(*angles);
   if (!before || angles->stamp <= before->stamp) {
     return std::nullopt;
   }
-  interval_s_ = toSeconds(angles->stamp - before->stamp);
+  seen_.interval_s = toSeconds(angles->stamp - before->stamp);
   WheelSample rates = *angles;
   for (std::size_t i = 0; i < rates.count; ++i) {
-    rates.rate_radps[i] = turned(before->rate_radps[i], angles->rate_radps[i]) / interval_s_;
+    rates.rate_radps[i] = turned(before->rate_radps[i], angles->rate_radps[i]) / seen_.interval_s;
   }
   return possible(rates, "has jumped");
 }
@@ -147,17 +147,18 @@ std::optional<WheelSample> WheelDecoder::fromPositions(const JointArrays& joints
 void WheelDecoder::noteRange(const WheelSample& angles) {
   for (std::size_t i = 0; i < angles.count; ++i) {
     const double angle_rad = wheels_[i].sign * angles.rate_radps[i];  // as the message has it
-    beyond_minus_pi_ = beyond_minus_pi_ || angle_rad < -kPi - kAngleSlack_rad;
-    beyond_zero_ = beyond_zero_ || angle_rad < -kAngleSlack_rad;
-    beyond_pi_ = beyond_pi_ || angle_rad > kPi + kAngleSlack_rad;
-    beyond_two_pi_ = beyond_two_pi_ || angle_rad > 2.0 * kPi + kAngleSlack_rad;
+    seen_.beyond_minus_pi = seen_.beyond_minus_pi || angle_rad < -kPi - kAngleSlack_rad;
+    seen_.beyond_zero = seen_.beyond_zero || angle_rad < -kAngleSlack_rad;
+    seen_.beyond_pi = seen_.beyond_pi || angle_rad > kPi + kAngleSlack_rad;
+    seen_.beyond_two_pi = seen_.beyond_two_pi || angle_rad > 2.0 * kPi + kAngleSlack_rad;
   }
 }
 
 /// From one position to the next [rad], the shorter way where positions wrap.
 double WheelDecoder::turned(double from_rad, double to_rad) const {
   const double difference_rad = to_rad - from_rad;
-  const bool within_one_turn = (!beyond_minus_pi_ && !beyond_pi_) || (!beyond_zero_ && !beyond_two_pi_);
+  const bool within_one_turn =
+      (!seen_.beyond_minus_pi && !seen_.beyond_pi) || (!seen_.beyond_zero && !seen_.beyond_two_pi);
   return within_one_turn ? std::remainder(difference_rad, 2.0 * kPi) : difference_rad;
 }
 

@@ -180,6 +180,28 @@ TEST_F(WheelDecoderTest, UsesPositionsWhereVelocitiesAreNoNumbers) {
   EXPECT_EQ(decoder_.remark(), "");
 }
 
+TEST_F(WheelDecoderTest, OneVelocityThatIsNoNumberCostsNoneOfTheOthers) {
+  const Names names = {"left", "right"};
+  decode(fromSeconds(1.0), names, {0.0, 0.0}, {2.0, -2.0});
+  const auto sample = decode(fromSeconds(1.1), names, {0.1, -0.1}, {2.0, std::numeric_limits<double>::quiet_NaN()});
+  ASSERT_TRUE(sample);
+  EXPECT_NEAR(sample->rate_radps[0], 1.0, 1e-9) << "by the positions";
+  EXPECT_EQ(decode(fromSeconds(1.2), names, {0.2, -0.2}, {2.0, -2.0})->rate_radps[0], 2.0);
+}
+
+TEST_F(WheelDecoderTest, AClockThatBeginsAgainBeginsAnew) {
+  const Names names = {"left", "right"};
+  for (int i = 0; i < 20; ++i) {
+    decode(fromSeconds(10.0 + 0.1 * i), names, {0.1 * i, -0.1 * i}, {0.0, 0.0});
+  }
+  const auto velocities = decode(fromSeconds(1.0), names, {7.0, 7.0}, {0.0, 0.0});
+  ASSERT_TRUE(velocities) << "they are believed again";
+  EXPECT_EQ(velocities->rate_radps[0], 0.0);
+  const auto positions = decode(fromSeconds(1.1), names, {7.1, 6.9}, {});
+  ASSERT_TRUE(positions);
+  EXPECT_NEAR(positions->rate_radps[0], 1.0, 1e-9);
+}
+
 TEST_F(WheelDecoderTest, IsQuietAboutTheJointsOfOthers) {
   EXPECT_FALSE(decode(1, {"shoulder", "elbow"}, {}, {1.0, 2.0}));
   EXPECT_EQ(decoder_.problem(), "");

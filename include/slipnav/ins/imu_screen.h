@@ -33,9 +33,6 @@ enum class ImuVerdict {
   kTimeWentBack,  ///< refused: older by a second or more; the source has started anew
 };
 
-/// Stamps of one source that go back by this much mean that it has started anew.
-inline constexpr Nanoseconds kRestartBackstep = kSecond;
-
 constexpr bool isAccepted(ImuVerdict verdict) {
   return verdict == ImuVerdict::kAccepted || verdict == ImuVerdict::kAfterGap;
 }

@@ -32,9 +32,9 @@ class WheelDecoder {
   /// decoder as it was, but for one whose positions have jumped, as those of an encoder that has overflowed: the next
   /// is differenced to it.
   ///
-  /// Positions serve as well where velocities are not finite, or are always zero while the positions move. Positions
-  /// that never leave one turn (-π to π, or 0 to 2π) are taken to wrap: of the two ways between them the shorter one
-  /// counts.
+  /// Positions serve as well for a message whose velocities are not finite, and once these have been zero while the
+  /// positions moved. Positions that never leave one turn (-π to π, or 0 to 2π) are taken to wrap: of the two ways
+  /// between them the shorter one counts. A message that is a second older than those before it begins anew.
   std::optional<WheelSample> decode(const JointArrays& joints);
 
   /// What was wrong with the last message, "" when nothing.
@@ -43,16 +43,27 @@ class WheelDecoder {
   /// What is to be said once about what the messages are like, with the first message that shows it; else "".
   const std::string& remark() const { return remark_; }
 
-  /// Forgets the positions of the message before.
-  void reset() { last_.reset(); }
-
  private:
+  /// What the messages have been like since the clock began.
+  struct Seen {
+    Nanoseconds newest = 0;
+    std::optional<WheelSample> angles;  ///< of the message before [rad], in place of rates
+    double interval_s = 0.0;            ///< between the last two positions
+    double turned_rad = 0.0;            ///< by positions, while all velocities were zero
+    bool velocity = false;              ///< one that is not zero
+    bool filled_in = false;             ///< the velocities have turned out to be of no use
+    bool not_finite = false;            ///< a velocity
+    bool beyond_minus_pi = false;       ///< a position has been below -π
+    bool beyond_zero = false;           ///< below 0
+    bool beyond_pi = false;             ///< above π
+    bool beyond_two_pi = false;         ///< above 2π
+  };
+
   bool locate(const JointArrays& joints);
   bool isOfOtherJoints(const JointArrays& joints);
-  bool hasVelocities(const JointArrays& joints) const;
-  std::optional<WheelSample> insteadOfStanding(const JointArrays& joints, const WheelSample& rates);
+  bool areFinite(const JointArrays& joints) const;
+  bool areFilledIn(const WheelSample& rates, const std::optional<WheelSample>& by_position);
   void noteRange(const WheelSample& angles);
-  void usePositions(const std::string& why);
   double turned(double from_rad, double to_rad) const;
   std::optional<WheelSample> pick(const JointArrays& joints, const std::vector<double>& values, const char* what);
   std::optional<WheelSample> fromPositions(const JointArrays& joints);
@@ -62,16 +73,8 @@ class WheelDecoder {
   double max_speed_mps_;
   std::vector<std::string> names_;    ///< of the message that `indices_` belongs to
   std::vector<std::size_t> indices_;  ///< where each wheel stands in the arrays
-  std::optional<WheelSample> last_;   ///< angles [rad] in place of rates
-  double interval_s_ = 0.0;           ///< between the last two positions
-  bool by_positions_ = false;         ///< the velocities have turned out to be of no use
-  bool velocity_seen_ = false;        ///< one that is not zero
-  double turned_rad_ = 0.0;           ///< by positions, while all velocities were zero
-  int other_joints_ = 0;              ///< messages without any of the wheels, before the first with them
-  bool beyond_minus_pi_ = false;      ///< a position has been below -π
-  bool beyond_zero_ = false;          ///< below 0
-  bool beyond_pi_ = false;            ///< above π
-  bool beyond_two_pi_ = false;        ///< above 2π
+  Seen seen_;
+  int other_joints_ = 0;  ///< messages without any of the wheels, before the first with them
   std::string remark_;
   std::string problem_;
 };
