@@ -1,14 +1,19 @@
 #include "slipnav/filter/imu_noise_meter.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace slipnav {
 namespace {
 
 constexpr double kMemory_s = 4.0;
+constexpr double kRecent_s = 0.5;
 constexpr double kEnough_s = 0.5;
 /// Of white noise, against that of one block mean.
 constexpr double kThirdDifferenceVariance = 20.0;
+/// Of the mean of n squares of them, relative to its own square, times n: 2 (1 + 2 Σ ρ²) with the correlations
+/// -15/20, 6/20 and -1/20 of differences that share blocks.
+constexpr double kMeanSquareVariance = 4.62;
 
 }  // namespace
 
@@ -42,9 +47,11 @@ void ImuNoiseMeter::closeBlock(Scale& scale) {
     const Vector6 density = difference.cwiseAbs2() * (scale.duration_s / kThirdDifferenceVariance);
     scale.weight_s = std::min(scale.weight_s + scale.duration_s, kMemory_s);
     scale.density += scale.duration_s / scale.weight_s * (density - scale.density);
+    scale.recent += scale.duration_s / std::min(scale.weight_s, kRecent_s) * (density - scale.recent);
   } else {
     ++scale.blocks;
   }
+  scale.block_s = scale.duration_s;
   scale.before[2] = scale.before[1];
   scale.before[1] = scale.before[0];
   scale.before[0] = mean;
@@ -58,7 +65,9 @@ ImuNoiseDensity ImuNoiseMeter::density() const {
   bool any = false;
   for (const Scale& scale : scales_) {
     if (scale.weight_s >= kEnough_s) {
-      least = any ? least.cwiseMin(scale.density) : scale.density;
+      const double doubt = 1.0 + std::sqrt(kMeanSquareVariance * scale.block_s / scale.weight_s);
+      const Vector6 density = (doubt * scale.density).cwiseMax(scale.recent);
+      least = any ? least.cwiseMin(density) : density;
       any = true;
     }
   }

@@ -13,8 +13,8 @@ namespace {
 constexpr double kMeanToMean = 2.0 / 3.0;
 constexpr double kDominant = 0.5;
 /// Ground may change at any time: of the quietest road no less is assumed.
-constexpr double kLeastFastSlip = 0.01;
-constexpr double kLeastSlowSlip = 0.02;
+constexpr double kLeastFastSlip = 0.002;
+constexpr double kLeastSlowSlip = 0.004;
 
 /// Only an innovation that persistent slip dominates, as when the rover stops, says something about it.
 double shareOfPersistentSlip(const Innovation1& innovation) {
@@ -38,7 +38,7 @@ NoiseFactors NoiseAdaptation::factors() const {
   NoiseFactors f;
   f.wheel = scales_.factor(kWheelNoise);
   f.fast_slip = scales_.factor(kFastSlipNoise);
-  f.slow_slip = f.fast_slip * scales_.factor(kSlowSlipNoise);
+  f.slow_slip = scales_.factor(kSlowSlipNoise);
   f.lateral = scales_.factor(kLateralNoise);
   f.side_slip = f.fast_slip * scales_.factor(kSideSlipNoise);
   f.vertical = scales_.factor(kVerticalNoise);

@@ -26,15 +26,15 @@ ImuFloor imuFloor(const ImuNoiseParams& params);
 /// How vehicle and ground behave between measurements.
 struct VehicleModelParams {
   double wheel_scale_std = 0.01;
-  double slow_slip_std = 0.06;
+  double slow_slip_std = 0.04;
   double slow_slip_length_m = 24.0;
   double slope_slip = 0.2;
   double fast_slip_std = 0.1;
   double fast_slip_length_m = 0.8;
-  double side_slip_std_deg = 1.7;
+  double side_slip_std_deg = 0.4;
   double side_slip_length_m = 8.0;
-  double mount_pitch_std_deg = 1.0;
-  double mount_yaw_std_deg = 1.0;
+  double mount_pitch_std_deg = 0.3;
+  double mount_yaw_std_deg = 0.5;
   void visit(ParameterVisitor& v);
 };
 

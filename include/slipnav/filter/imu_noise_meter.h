@@ -37,11 +37,13 @@ class ImuNoiseMeter {
   struct Scale {
     Vector6 sum = Vector6::Zero();
     double duration_s = 0.0;
+    double block_s = 0.0;  ///< length of the newest whole block
     int samples = 0;
     std::array<Vector6, 3> before;  ///< means of the last blocks, newest first
     int blocks = 0;                 ///< of them that count
     Vector6 density = Vector6::Zero();
-    double weight_s = 0.0;  ///< time that `density` is the mean of
+    Vector6 recent = Vector6::Zero();  ///< the same of the last moment: shaking begins at once
+    double weight_s = 0.0;             ///< time that `density` is the mean of
   };
   static constexpr int kScales = 4;
 
