@@ -18,7 +18,7 @@ namespace {
 constexpr int kSeeds = 24;
 /// What the average normalised estimation error squared, per degree of freedom, may be: 1 is exact.
 /// 0.4 would do for a filter that knows its ground; this one is cautious until it has learned it.
-constexpr Range kAnees{0.15, 1.6};
+constexpr Range kAnees{0.12, 1.6};
 constexpr double kLeastCoverage_pct = 98.0;
 /// Final error over that of wheels and gyro, with a spare part of the distance.
 constexpr double kLargestRatio = 1.2;

@@ -40,9 +40,9 @@ constexpr double kRate = 5.0;
 constexpr double kPixelsPerMetre = 50.0;
 constexpr double kSettling_s = 4.0;
 constexpr double kLeastFrameRate_hz = 10.0;
-constexpr double kShareOfTrack = 0.9;
-constexpr double kSpacing_m = 0.05;   // of the points of a track that are looked at
-constexpr double kRoverSize_m = 1.0;  // what lies under the model cannot be seen
+constexpr double kShareOfTrack = 0.85;  // where tracks run into one another, one hides the other
+constexpr double kSpacing_m = 0.05;     // of the points of a track that are looked at
+constexpr double kRoverSize_m = 1.0;    // what lies under the model cannot be seen
 constexpr int kSearchRadius_px = 6;
 constexpr int kColourTolerance = 40;  // of 255; edges are blended
 
