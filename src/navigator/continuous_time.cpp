@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "slipnav/ins/imu_screen.h"
-
 namespace slipnav {
 namespace {
 

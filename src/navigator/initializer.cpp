@@ -14,6 +14,7 @@ namespace {
 
 // Wide enough that what follows decides: the filter sees the same samples again and must not count them twice.
 constexpr double kLevelStd_rad = 2.0 * kPi / 180.0;
+// The course of the drive is the heading but for side slip and mounting, however well the fixes tell it.
 constexpr double kLeastDriveHeadingStd_rad = 1.0 * kPi / 180.0;
 constexpr double kHeadingStdFactor = 3.0;
 // The drive goes on until its fixes tell the heading so well, or is taken as it is after so many times its usual

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "slipnav/ins/imu_screen.h"
-
 namespace slipnav {
 namespace {
 

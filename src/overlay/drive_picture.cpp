@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/ins/imu_screen.h"
-
 namespace slipnav {
 namespace {
 

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "slipnav/ins/imu_screen.h"
-
 namespace slipnav {
 namespace {
 

@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "slipnav/ins/imu_screen.h"
-
 namespace slipnav {
 namespace {
 

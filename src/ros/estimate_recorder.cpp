@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "slipnav/ins/imu_screen.h"
 #include "slipnav/ros/conversions.h"
 
 namespace slipnav {

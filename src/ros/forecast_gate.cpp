@@ -1,7 +1,5 @@
 #include "slipnav/ros/forecast_gate.h"
 
-#include "slipnav/ins/imu_screen.h"
-
 namespace slipnav {
 namespace {
 

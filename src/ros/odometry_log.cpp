@@ -3,7 +3,6 @@
 #include <ros/serialization.h>
 
 #include "slipnav/eval/atomic_file.h"
-#include "slipnav/ins/imu_screen.h"
 #include "slipnav/ros/conversions.h"
 
 namespace slipnav {

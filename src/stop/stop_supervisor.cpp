@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "slipnav/ins/imu_screen.h"
-
 namespace slipnav {
 namespace {
 
