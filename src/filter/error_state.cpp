@@ -36,16 +36,25 @@ ErrorReset correct(const Planet& planet, const ErrorVector& error, NavigationSta
   const Matrix3 turn = quaternionFromRotationVector(-attitude).toRotationMatrix();
   const Vector3 xi = error.segment<3>(kVelocity) - attitude.cross(before.v_eb_n);
   state.v_eb_n = turn * (before.v_eb_n - xi);
-  ErrorReset reset = ErrorReset::Identity();
-  reset.block<3, 3>(kVelocity, kAttitude) = turn * skew(before.v_eb_n) - skew(state.v_eb_n);
-  reset.block<3, 3>(kVelocity, kVelocity) = turn;
-  reset.block<3, 3>(kPosition, kAttitude) = -skew(positionDifference(planet, state.position, before.position));
+  ErrorReset reset;
+  reset.nav.block<3, 3>(kVelocity, kAttitude) = turn * skew(before.v_eb_n) - skew(state.v_eb_n);
+  reset.nav.block<3, 3>(kVelocity, kVelocity) = turn;
+  reset.nav.block<3, 3>(kPosition, kAttitude) = -skew(positionDifference(planet, state.position, before.position));
+  const Vector3 up_b = state.q_b_to_n.conjugate() * -Vector3::UnitZ();
+  const Vector3 across = up_b.cross(error.segment<3>(kAccelBias)) / planet.gravity_n(state.position).z();
+  reset.accel_bias = quaternionFromRotationVector(across).toRotationMatrix();
   return reset;
 }
 
 void applyReset(const ErrorReset& reset, ErrorCovariance& P) {
-  const Eigen::Matrix<double, 9, kErrorStates> top = reset * P.topRows<9>();
-  const Eigen::Matrix<double, 9, 9> nav = top.leftCols<9>() * reset.transpose();
+  const Eigen::Matrix<double, 3, kErrorStates> accel_bias = reset.accel_bias * P.middleRows<3>(kAccelBias);
+  const Matrix3 own = accel_bias.middleCols<3>(kAccelBias) * reset.accel_bias.transpose();
+  P.middleRows<3>(kAccelBias) = accel_bias;
+  P.middleCols<3>(kAccelBias) = accel_bias.transpose();
+  P.block<3, 3>(kAccelBias, kAccelBias) = 0.5 * (own + own.transpose());
+
+  const Eigen::Matrix<double, 9, kErrorStates> top = reset.nav * P.topRows<9>();
+  const Eigen::Matrix<double, 9, 9> nav = top.leftCols<9>() * reset.nav.transpose();
   P.topLeftCorner<9, 9>() = 0.5 * (nav + nav.transpose());
   P.topRightCorner<9, kErrorStates - 9>() = top.rightCols<kErrorStates - 9>();
   P.bottomLeftCorner<kErrorStates - 9, 9>() = P.topRightCorner<9, kErrorStates - 9>().transpose();

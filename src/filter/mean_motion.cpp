@@ -23,7 +23,8 @@ void MeanMotion::add(const InsStep& step, const Vector3& v_eb_b, const VelocityJ
 
 void MeanMotion::correct(const ErrorVector& error, const ErrorReset& reset) {
   average_.addTravel(-integral_ * error);
-  integral_.leftCols<9>() = (integral_.leftCols<9>() * reset.inverse()).eval();
+  integral_.leftCols<9>() = (integral_.leftCols<9>() * reset.nav.inverse()).eval();
+  integral_.middleCols<3>(kAccelBias) = (integral_.middleCols<3>(kAccelBias) * reset.accel_bias.transpose()).eval();
 }
 
 }  // namespace slipnav

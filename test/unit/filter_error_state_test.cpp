@@ -103,7 +103,9 @@ TEST(ErrorState, ASmallCorrectionIsThePlainDifference) {
   EXPECT_LT((invariant.v_eb_n - plain.v_eb_n).norm(), 1e-9);
   EXPECT_GT((invariant.v_eb_n - plain.v_eb_n).norm(), 0.0);
   NavigationState same = before;
-  EXPECT_LT((correct(earth, ErrorVector::Zero(), same) - ErrorReset::Identity()).norm(), 1e-12);
+  const ErrorReset nothing = correct(earth, ErrorVector::Zero(), same);
+  EXPECT_LT((nothing.nav - ErrorReset().nav).norm(), 1e-12);
+  EXPECT_LT((nothing.accel_bias - Matrix3::Identity()).norm(), 1e-12);
 }
 
 /// A turn of everything about the vertical at the point of linearisation before becomes one at the point after.
@@ -122,13 +124,46 @@ TEST(ErrorState, AResetKeepsTheHeadingUnobservable) {
     direction << down, down.cross(about.v_eb_n), down.cross(positionDifference(earth, about.position, before.position));
     return direction;
   };
-  EXPECT_LT((reset * turn(before) - turn(state)).norm(), 1e-6);
+  EXPECT_LT((reset.nav * turn(before) - turn(state)).norm(), 1e-6);
   EXPECT_GT((turn(before) - turn(state)).norm(), 0.1);
   // The same holds for what is known: P of that direction alone stays of that direction alone.
   ErrorCovariance P = ErrorCovariance::Zero();
   P.topLeftCorner<9, 9>() = turn(before) * turn(before).transpose();
   applyReset(reset, P);
   EXPECT_LT((P.topLeftCorner<9, 9>() - turn(state) * turn(state).transpose()).norm(), 1e-5);
+}
+
+/// Tilt and accelerometer bias of a rover at rest that the specific force cannot tell apart, for a tilt of `axis_n`.
+ErrorVector hiddenTilt(const Planet& planet, const NavigationState& at, const Vector3& axis_n) {
+  const Vector3 f_n(0.0, 0.0, -planet.gravity_n(at.position).z());
+  ErrorVector direction = ErrorVector::Zero();
+  direction.segment<3>(kAttitude) = axis_n;
+  direction.segment<3>(kAccelBias) = -(at.q_b_to_n.conjugate() * f_n.cross(axis_n));
+  return direction;
+}
+
+/// The estimate moves along what it cannot see: what it does not know there it does not know afterwards either, and no
+/// more. Ten steps of a degree each way, on a slope.
+TEST(ErrorState, AResetKeepsTiltAndBiasInseparable) {
+  const Planet earth = Planet::byName("earth");
+  NavigationState state;
+  state.position = {degToRad(39.0), 0.0, 200.0};
+  state.q_b_to_n = q_b_to_n_fromEuler(0.1, -0.2, 0.7);
+  constexpr double kPriorVariance = 1e-4;
+  const auto unknown = [&] {
+    const ErrorVector north = hiddenTilt(earth, state, Vector3::UnitX());
+    const ErrorVector east = hiddenTilt(earth, state, Vector3::UnitY());
+    return ErrorCovariance(kPriorVariance * (north * north.transpose() + east * east.transpose()));
+  };
+  ErrorCovariance P = unknown();
+  const ErrorCovariance at_first = P;
+  sim::RandomStream random(7, "tilts");
+  for (int i = 0; i < 10; ++i) {
+    const Vector3 tilt(degToRad(1.0) * random.normal(), degToRad(1.0) * random.normal(), 0.0);
+    applyReset(correct(earth, hiddenTilt(earth, state, tilt), state), P);
+  }
+  EXPECT_GT((at_first - unknown()).norm(), 0.01 * at_first.norm()) << "nothing was to be done";
+  EXPECT_LT((P - unknown()).norm(), 0.002 * P.norm());
 }
 
 TEST(ErrorState, AttitudeStaysAUnitQuaternion) {

@@ -71,7 +71,7 @@ TEST(MeanMotion, AMeanDependsOnTheErrorAsItWasMeanwhile) {
 TEST(MeanMotion, ACorrectionReachesBack) {
   Drive drive;
   const ErrorVector error = tilted(drive);
-  drive.mean().correct(error, ErrorReset::Identity());  // all of it is known and taken out
+  drive.mean().correct(error, ErrorReset());  // all of it is known and taken out
   EXPECT_LT(drive.mean().mean()->v_eb_b.norm(), 1e-6);
 }
 
@@ -79,10 +79,13 @@ TEST(MeanMotion, AResetIsUndoneInWhatTheMeanDependsOn) {
   Drive drive;
   drive.step(0, ErrorVector::Zero());
   const VelocityJacobian before = drive.mean().jacobian();
-  ErrorReset reset = ErrorReset::Identity();
-  reset.block<3, 3>(kVelocity, kAttitude).setConstant(0.3);
+  ErrorReset reset;
+  reset.nav.block<3, 3>(kVelocity, kAttitude).setConstant(0.3);
+  reset.accel_bias = Eigen::AngleAxisd(0.4, Vector3::UnitY()).toRotationMatrix();
   drive.mean().correct(ErrorVector::Zero(), reset);
-  EXPECT_LT((drive.mean().jacobian().leftCols<9>() * reset - before.leftCols<9>()).norm(), 1e-12);
+  const VelocityJacobian after = drive.mean().jacobian();
+  EXPECT_LT((after.leftCols<9>() * reset.nav - before.leftCols<9>()).norm(), 1e-12);
+  EXPECT_LT((after.middleCols<3>(kAccelBias) * reset.accel_bias - before.middleCols<3>(kAccelBias)).norm(), 1e-12);
   EXPECT_GT((drive.mean().jacobian() - before).norm(), 0.1);
 }
 

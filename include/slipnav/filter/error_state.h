@@ -46,8 +46,11 @@ struct VehicleState {
 void subtractError(const Planet& planet, const ErrorVector& error, NavigationState& state);
 void subtractError(const ErrorVector& error, VehicleState& state);
 
-/// ∂(error of attitude, velocity and position about the corrected state)/∂(error that was left about the one before).
-using ErrorReset = Eigen::Matrix<double, 9, 9>;
+/// ∂(error about the corrected state)/∂(error that was left about the one before). Other errors stay as they are.
+struct ErrorReset {
+  Eigen::Matrix<double, 9, 9> nav = Eigen::Matrix<double, 9, 9>::Identity();  ///< attitude, velocity, position
+  Matrix3 accel_bias = Matrix3::Identity();                                   ///< a rotation
+};
 
 /// Takes an error out that may be large, as after a gap of the IMU: what is linear is not δv but the velocity error as
 /// it is when the attitude error is taken out first, ξ = v̂ − R v with R = exp[δψ×], of which the velocity in body axes
@@ -55,6 +58,12 @@ using ErrorReset = Eigen::Matrix<double, 9, 9>;
 /// filter as a stable observer, IEEE TAC 62(4), 2017). The reset keeps what is known in those terms while the point of
 /// linearisation moves; without it the filter believes to learn its heading, which nothing observes. It leaves out the
 /// turn of δψ by half the correction: a heading that is not known does not change what is known of the tilt.
+///
+/// An accelerometer at rest knows the size of gravity, not its direction: of the bias it sees the part along the
+/// specific force, and the rest is one with the tilt. When the bias is corrected across that direction the direction
+/// turns with it, along the sphere |f̃ − b| = g, and what is known must turn too (the biases' error in the frame that
+/// the group acts in: A. Barrau, S. Bonnabel, The geometry of navigation problems, IEEE TAC 68(2), 2023). Left where it
+/// was, the filter would see the bias from a second side and believe to know all of it.
 ErrorReset correct(const Planet& planet, const ErrorVector& error, NavigationState& state);
 
 /// P after the state has been corrected.
