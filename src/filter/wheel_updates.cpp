@@ -17,7 +17,7 @@ constexpr double kEnvelope_m = 8.0;
 constexpr double kLongestSlip_m = 3.0;
 
 Innovation1 innovationOf(const Measurement& m, int persistent_slip, const ErrorCovariance& P) {
-  return {square(m.residual(0)), (m.H * covarianceWithPrediction(m.H, P))(0, 0) + m.variance(0),
+  return {m.residual(0), (m.H * covarianceWithPrediction(m.H, P))(0, 0) + m.variance(0),
           explainedBy(persistent_slip, m.H, P)};
 }
 
@@ -179,12 +179,15 @@ void FilterEngine::addForwardSpeed(const WheelMotion& wheels, const BodyMotion& 
   const Measurement m = forwardSpeedMeasurement(setup_.wheel, interval, motion, average_.jacobian(), vehicle_,
                                                 slip_variance, adaptation_.factors());
   const Innovation1 innovation = innovationOf(m, kSlowSlip, P_);
-  adaptation_.learnForward(setup_.wheel, interval, innovation);
-  estimate_.wheel_speed_used = innovation.squared <= update_.gate(1) * innovation.variance;
+  if (wheels.largest_speed_mps > 0.0) {  // wheels at rest are exact, and say nothing about those that turn
+    adaptation_.learnForward(setup_.wheel, interval, innovation);
+  }
+  const double squared = square(innovation.residual);
+  estimate_.wheel_speed_used = squared <= update_.gate(1) * innovation.variance;
   if (estimate_.wheel_speed_used) {
     slipping_way_m_ = 0.0;
   } else {
-    loosen(m, wheels.stamp, innovation.squared / std::max(square(interval.slipping_speed_mps), 1e-12));
+    loosen(m, wheels.stamp, squared / std::max(square(interval.slipping_speed_mps), 1e-12));
   }
   set.add(kForwardSpeed, m);
 }
@@ -210,16 +213,13 @@ void FilterEngine::addConstraints(MeasurementSet& set) {
   const double information =
       constraintInformation(setup_.nonholonomic, std::abs(motion.v_eb_b.x()) * motion.duration_s);
   Measurement lateral = lateralMeasurement(setup_.nonholonomic, motion, H_v, vehicle_, factors.lateral);
-  const Innovation1 sideways = innovationOf(lateral, kSideSlip, P_);
-  // Sideways speed that the filter itself is not sure of, as after a gap of the IMU, is no side slip.
-  if (!isExcessiveSideSlip(setup_.nonholonomic, motion, vehicle_, sideways.variance)) {
-    adaptation_.learnLateral(lateral.variance(0), sideways);
-    lateral.variance /= information;
-    set.add(kLateral, lateral);
-  }
+  lateral.variance /= information;
+  adaptation_.learnLateral(lateral.variance(0), innovationOf(lateral, kSideSlip, P_),
+                           state_.q_b_to_n * Vector3::UnitY());
+  set.add(kLateral, lateral);
   Measurement vertical = verticalMeasurement(setup_.nonholonomic, motion, H_v, vehicle_, factors.vertical);
-  adaptation_.learnVertical(vertical.variance(0), innovationOf(vertical, kMountPitch, P_));
   vertical.variance /= information;
+  adaptation_.learnVertical(vertical.variance(0), innovationOf(vertical, kMountPitch, P_));
   set.add(kVertical, vertical);
 }
 

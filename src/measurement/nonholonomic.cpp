@@ -8,8 +8,6 @@
 namespace slipnav {
 namespace {
 
-/// Standard deviations beyond which a lateral speed is real.
-constexpr double kSignificant = 3.0;
 /// Least information of a mean over hardly any way, against one over the whole length.
 constexpr double kLeastInformation = 0.05;
 
@@ -17,23 +15,21 @@ constexpr double kLeastInformation = 0.05;
 
 void NonholonomicParams::visit(ParameterVisitor& v) {
   v.number("lateral_std_mps", lateral_std_mps, {1e-6, 10.0},
-           "1σ of the mean lateral speed beside the side slip, whatever the forward speed, before it is learned [m/s]");
+           "1σ of the mean lateral speed beside the side slip, whatever the forward speed; more is learned [m/s]");
   v.number("lateral_slope_std", lateral_slope_std, {0.0, 1.0},
-           "1σ of the mean lateral speed as a ratio of the forward speed: sway; before it is learned");
+           "1σ of the mean lateral speed as a ratio of the forward speed: sway; more is learned");
   v.number("lateral_turn_std_m", lateral_turn_std_m, {0.0, 10.0},
            "1σ of the lateral speed per heading rate: how far the center of turn wanders along the vehicle [m]");
   v.number("vertical_std_mps", vertical_std_mps, {1e-6, 10.0},
-           "1σ of the mean speed off the ground, whatever the forward speed, before it is learned [m/s]");
+           "1σ of the mean speed off the ground, whatever the forward speed; more is learned [m/s]");
   v.number(
       "vertical_slope_std", vertical_slope_std, {0.0, 1.0},
-      "1σ of the mean speed off the ground as a ratio of the forward speed: heave and pitch; before it is learned");
+      "1σ of the mean speed off the ground as a ratio of the forward speed: heave and pitch; more is learned");
   v.number("vertical_turn_std_m", vertical_turn_std_m, {0.0, 10.0},
            "1σ of the speed off the ground per roll and pitch rate [m]");
   v.number("length_m", length_m, {0.0, 100.0},
            "way over which both are averaged, of the order of the vehicle's own length [m]");
   v.number("max_interval_s", max_interval_s, {0.0, 60.0}, "longest time over which both are averaged [s]");
-  v.number("max_side_slip_deg", max_side_slip_deg, {0.1, 90.0},
-           "slip angle beyond which the lateral constraint is dropped [°]");
 }
 
 double constraintInformation(const NonholonomicParams& params, double way_m) {
@@ -52,12 +48,6 @@ Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotio
   m.variance(0) = factor * (square(params.lateral_std_mps) + square(params.lateral_slope_std * v_x) +
                             square(params.lateral_turn_std_m * motion.omega_ib_b.z()));
   return m;
-}
-
-bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& motion, const VehicleState& vehicle,
-                         double lateral_variance) {
-  return std::abs(slipAngle(motion.v_eb_b, vehicle)) > degToRad(params.max_side_slip_deg) &&
-         std::abs(motion.v_eb_b.y()) > kSignificant * std::sqrt(lateral_variance);
 }
 
 Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,

@@ -24,7 +24,7 @@ constexpr double kBiasSigmas = 4.0;
 constexpr double kForceTolerance_mps2 = 0.05;
 constexpr double kRateTolerance_radps = 0.1 * kPi / 180.0;
 /// Largest speed that noise of the encoders may have at rest.
-constexpr double kLargestRestSpeed_mps = 0.01;
+constexpr double kLargestRestSpeed_mps = 0.005;
 
 }  // namespace
 

@@ -17,8 +17,8 @@ namespace {
 /// So many that the average strays by 0.17.
 constexpr int kSeeds = 24;
 /// What the average normalised estimation error squared, per degree of freedom, may be: 1 is exact.
-/// 0.4 would do for a filter that knows its ground; this one is cautious until it has learned it.
-constexpr Range kAnees{0.12, 1.6};
+/// 0.4 would do for a filter that knows its ground; this one does not believe in a road that stays as good as it is.
+constexpr Range kAnees{0.04, 1.6};
 constexpr double kLeastCoverage_pct = 98.0;
 /// Final error over that of wheels and gyro, with a spare part of the distance.
 constexpr double kLargestRatio = 1.2;

@@ -48,6 +48,19 @@ TEST(ImuNoiseMeter, BoundedShakingIsLessThanItsSamplesSay) {
   EXPECT_LT(meter.density().accel.mean(), 0.4 * sample_variance * kPeriod_s);
 }
 
+TEST(ImuNoiseMeter, ShakingCountsAtOnce) {
+  ImuNoiseMeter meter;
+  sim::RandomStream random(1, "noise");
+  const auto shake = [&](double std, double duration_s) {
+    for (int i = 0; i < static_cast<int>(duration_s / kPeriod_s); ++i) {
+      meter.add(std * random.normal3(), Vector3::Zero(), kPeriod_s);
+    }
+  };
+  shake(0.001, 60.0);
+  shake(0.4, 0.8);
+  EXPECT_GT(meter.density().accel.mean(), 0.4 * 0.4 * 0.4 * kPeriod_s);
+}
+
 TEST(ImuNoiseMeter, AGapIsNoNoise) {
   ImuNoiseMeter meter;
   sim::RandomStream random(1, "noise");

@@ -101,19 +101,6 @@ TEST(MeasurementSigns, StraightReverseHasNoSlipAngle) {
   EXPECT_NEAR(slipAngle(Vector3(-1.0, -0.1, 0.0), {}), std::atan(0.1), 1e-12);
 }
 
-TEST(SideSlip, IsExcessiveWhenItIsLargeAndReal) {
-  NonholonomicParams params;
-  params.max_side_slip_deg = 15.0;
-  const double variance = 0.02 * 0.02;
-  const auto excessive = [&](double v_x, double v_y) {
-    return isExcessiveSideSlip(params, {0.1, Vector3(v_x, v_y, 0.0), Vector3::Zero()}, {}, variance);
-  };
-  EXPECT_TRUE(excessive(0.3, 0.2));
-  EXPECT_TRUE(excessive(-0.3, 0.2));
-  EXPECT_FALSE(excessive(0.8, 0.2));    // 14°
-  EXPECT_FALSE(excessive(0.05, 0.05));  // 45°, but no more than noise makes of a standing rover
-}
-
 TEST(MeasurementNoise, GrowsWithSpeedAndTurns) {
   WheelOdometryParams wheel;
   wheel.speed_std_mps = 0.02;

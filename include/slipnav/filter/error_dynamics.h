@@ -29,8 +29,8 @@ struct VehicleModelParams {
   double slow_slip_std = 0.04;
   double slow_slip_length_m = 24.0;
   double slope_slip = 0.2;
-  double fast_slip_std = 0.1;
-  double fast_slip_length_m = 0.8;
+  double fast_slip_std = 0.07;
+  double fast_slip_length_m = 0.5;
   double side_slip_std_deg = 0.4;
   double side_slip_length_m = 8.0;
   double mount_pitch_std_deg = 0.3;

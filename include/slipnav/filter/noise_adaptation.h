@@ -2,6 +2,7 @@
 /// What the filter learns of noise while driving: which innovation tells of which noise, and what follows for Q and R.
 
 #include "slipnav/filter/error_dynamics.h"
+#include "slipnav/filter/imu_doubt.h"
 #include "slipnav/filter/imu_noise_meter.h"
 #include "slipnav/filter/noise_scales.h"
 #include "slipnav/ins/ins_engine.h"
@@ -11,7 +12,7 @@ namespace slipnav {
 
 /// Of one row, before the update.
 struct Innovation1 {
-  double squared = 0.0;             ///< r²
+  double residual = 0.0;            ///< r
   double variance = 0.0;            ///< S
   double by_persistent_slip = 0.0;  ///< the part of S that the slow or side slip explains, see explainedBy()
 };
@@ -43,8 +44,8 @@ class NoiseAdaptation {
   /// A forward speed was compared.
   void learnForward(const WheelOdometryParams& params, const WheelInterval& wheels, const Innovation1& innovation);
   /// A mean lateral or vertical speed was compared.
-  /// @param own_variance R of the measurement
-  void learnLateral(double own_variance, const Innovation1& innovation);
+  /// @param own_variance R of the measurement; @param aside_n the vehicle's y axis, unit, north-east-down
+  void learnLateral(double own_variance, const Innovation1& innovation, const Vector3& aside_n);
   void learnVertical(double own_variance, const Innovation1& innovation);
   void constraintsUsed();
 
@@ -55,12 +56,19 @@ class NoiseAdaptation {
     Vector3 vibration_b = Vector3::Zero();  ///< of the velocity [m²/s²]
   };
   static void add(const ErrorTransition& transition, const Vector3& vibration_b, Since& since);
+  void addDoubt(const ImuNoiseDensity& shaking, const Matrix3& squared, double duration_s,
+                ErrorTransition& transition) const;
+  void learnConstraint(NoiseKind kind, double own_variance, const Innovation1& innovation, double squared,
+                       NoiseVector shares);
 
   NoiseScaleParams params_;
   ImuFloor floor_;
   double slope_slip_;
   NoiseScales scales_;
   ImuNoiseMeter meter_;
+  ImuDoubt doubt_;
+  SuccessiveDifference sideways_;
+  SuccessiveDifference off_ground_;
   GroundStep ground_;
   Since forward_;
   Since constraints_;

@@ -33,6 +33,7 @@ struct NoiseScaleParams {
   double length_m = 20.0;
   double factor_std = 3.0;
   double slip_factor_std = 2.0;
+  double imu_factor_std = 1.6;
   double whiteness = 1.0;
   double whiteness_factor_std = 3.0;
   void visit(ParameterVisitor& v);

@@ -18,7 +18,6 @@ struct NonholonomicParams {
   double vertical_turn_std_m = 0.03;
   double length_m = 1.0;
   double max_interval_s = 2.0;
-  double max_side_slip_deg = 15.0;
   void visit(ParameterVisitor& v);
 };
 
@@ -32,11 +31,6 @@ double constraintInformation(const NonholonomicParams& params, double way_m);
 /// @param H_v of motion.v_eb_b; @param factor learned, on the variance
 Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
                                const VehicleState& vehicle, double factor);
-
-/// Whether the rover slides sideways so much that the lateral constraint says nothing: the slip angle is beyond its
-/// limit and the lateral speed is more than the constraint's own noise can explain.
-bool isExcessiveSideSlip(const NonholonomicParams& params, const BodyMotion& motion, const VehicleState& vehicle,
-                         double lateral_variance);
 
 /// Vertical speed of the reference point: v_z − θ_m v_x = 0.
 Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,

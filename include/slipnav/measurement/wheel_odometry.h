@@ -15,7 +15,7 @@ namespace slipnav {
 struct WheelOdometryParams {
   std::string source = "auto";
   double stamp_delay_s = 0.0;
-  double speed_std_mps = 0.002;
+  double speed_std_mps = 0.01;
   double slip_noise_std = 0.006;
   double stamp_std_s = 0.03;
   double yaw_rate_std_deg_per_s = 3.3;
