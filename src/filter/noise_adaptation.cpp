@@ -137,8 +137,8 @@ void NoiseAdaptation::learnVertical(double own_variance, const Innovation1& inno
   doubt_.compare(kOffGround, innovation.residual / std::sqrt(innovation.variance), Vector3::UnitZ());
   NoiseVector shares = NoiseVector::Zero();
   shares(kVibrationNoise) = kMeanToMean * constraints_.vibration_b.z();
-  learnConstraint(kVerticalNoise, own_variance, innovation,
-                  off_ground_.squared(innovation.residual, Vector3::UnitZ()), shares);
+  learnConstraint(kVerticalNoise, own_variance, innovation, off_ground_.squared(innovation.residual, Vector3::UnitZ()),
+                  shares);
 }
 
 /// @param squared difference to the innovation before, negative where there is none

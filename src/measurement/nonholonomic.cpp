@@ -22,9 +22,8 @@ void NonholonomicParams::visit(ParameterVisitor& v) {
            "1σ of the lateral speed per heading rate: how far the center of turn wanders along the vehicle [m]");
   v.number("vertical_std_mps", vertical_std_mps, {1e-6, 10.0},
            "1σ of the mean speed off the ground, whatever the forward speed; more is learned [m/s]");
-  v.number(
-      "vertical_slope_std", vertical_slope_std, {0.0, 1.0},
-      "1σ of the mean speed off the ground as a ratio of the forward speed: heave and pitch; more is learned");
+  v.number("vertical_slope_std", vertical_slope_std, {0.0, 1.0},
+           "1σ of the mean speed off the ground as a ratio of the forward speed: heave and pitch; more is learned");
   v.number("vertical_turn_std_m", vertical_turn_std_m, {0.0, 10.0},
            "1σ of the speed off the ground per roll and pitch rate [m]");
   v.number("length_m", length_m, {0.0, 100.0},
