@@ -21,6 +21,10 @@ constexpr double kWhiteFor_s = 20.0;
 constexpr double kUnsteadyBias = 0.1;
 constexpr double kUnsteadyFor_s = 1.0;
 
+/// Fast slip and the sway and heave of the body are never less than configured: a stretch of smooth ground says nothing
+/// about the next, and the filter would be sure of its attitude by what it believes of the body.
+double atLeastConfigured(double factor) { return std::max(1.0, factor); }
+
 /// Only an innovation that persistent slip dominates, as when the rover stops, says something about it.
 double shareOfPersistentSlip(const Innovation1& innovation) {
   return innovation.by_persistent_slip > kDominant * innovation.variance ? innovation.by_persistent_slip : 0.0;
@@ -41,16 +45,14 @@ void NoiseAdaptation::reset() {
   way_m_ = 0.0;
 }
 
-/// Fast slip and the sway and heave of the body are never less than configured: a stretch of smooth ground says nothing
-/// about the next, and the filter would be sure of its attitude by what it believes of the body.
 NoiseFactors NoiseAdaptation::factors() const {
   NoiseFactors f;
   f.wheel = scales_.factor(kWheelNoise);
-  f.fast_slip = std::max(1.0, scales_.factor(kFastSlipNoise));
+  f.fast_slip = atLeastConfigured(scales_.factor(kFastSlipNoise));
   f.slow_slip = scales_.factor(kSlowSlipNoise);
-  f.lateral = std::max(1.0, scales_.factor(kLateralNoise));
+  f.lateral = atLeastConfigured(scales_.factor(kLateralNoise));
   f.side_slip = f.fast_slip * scales_.factor(kSideSlipNoise);
-  f.vertical = std::max(1.0, scales_.factor(kVerticalNoise));
+  f.vertical = atLeastConfigured(scales_.factor(kVerticalNoise));
   return f;
 }
 
@@ -90,7 +92,7 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   add(transition, accel, forward_);
   add(transition, accel, constraints_);
   if (way_m > 0.0 && step.gap_s <= 0.0) {  // what may happen in a gap is added at its end
-    addDoubt(shaking, C_b_to_n.cwiseAbs2(), duration_s, transition);
+    addDoubt(shaking, squared, duration_s, transition);
   }
   way_m_ += way_m;
 }
@@ -148,7 +150,7 @@ void NoiseAdaptation::learnConstraint(NoiseKind kind, double own_variance, const
     return;
   }
   const double learned = scales_.factor(kind);
-  shares(kind) = own_variance * learned / std::max(1.0, learned);
+  shares(kind) = own_variance * learned / atLeastConfigured(learned);
   scales_.learn(shares, squared, innovation.variance - (own_variance - shares(kind)));
 }
 
