@@ -56,6 +56,7 @@ void FilterEngine::initialise(const InitialState& initial) {
   epoch_ = 0;
   estimate_ = Estimate{};
   detector_.reset();
+  stuck_.reset();
   update_ = GatedUpdate(setup_.filter);
   tremor_ = Tremor(setup_.zero);
   wheel_monitor_.reset();
@@ -71,6 +72,7 @@ void FilterEngine::initialise(const InitialState& initial) {
   last_forward_mps_ = 0.0;
   surface_speed_mps_ = 0.0;
   slipping_way_m_ = 0.0;
+  lasting_slip_.reset();
   way_since_wheels_m_ = slow_envelope_ = side_envelope_ = 0.0;
   steps_.clear();
   while (!fixes_.empty() && stampOf(fixes_.front()) <= initial.nav.stamp) {
@@ -187,7 +189,7 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   const Vector3 v_start_b = referenceVelocity(step);
   const double duration_s = std::min(toSeconds(step.state.stamp - step.start), kLongestGap_s);
   transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
-  adaptation_.addNoise(dynamics_, step, step.state, surface_speed_mps_ * duration_s, transition_);
+  adaptation_.addNoise(dynamics_, step, step.state, vehicle_.slow_slip, surface_speed_mps_ * duration_s, transition_);
   ErrorDynamics::propagate(transition_, P_);
   average_.propagate(transition_);
   constraint_average_.propagate(transition_);

@@ -64,7 +64,7 @@ void NoiseAdaptation::add(const ErrorTransition& transition, const Vector3& vibr
 }
 
 void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& step, const NavigationState& state,
-                               double way_m, ErrorTransition& transition) {
+                               double slow_slip, double way_m, ErrorTransition& transition) {
   const double duration_s = toSeconds(step.state.stamp - step.start);
   if (step.gap_s > 0.0) {
     meter_.interrupt();
@@ -79,6 +79,8 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   ground.fast_slip_variance *= factor.fast_slip;
   ground.slow_slip_variance =
       ground.slow_slip_variance * factor.slow_slip + square(slope_slip_ * C_b_to_n(2, 0)) + square(kLeastSlowSlip);
+  // Ground on which the wheels lose a third of their way is not one whose slip is a few percent.
+  ground.slow_slip_variance = std::max(ground.slow_slip_variance, square(slow_slip));
   ground.side_slip_variance = ground.side_slip_variance * factor.side_slip + square(slope_slip_ * C_b_to_n(2, 1));
   dynamics.rollOver(ground, transition);
 

@@ -15,6 +15,9 @@ constexpr double kIntervalTolerance_s = 1e-3;
 constexpr double kMoreThanSteady = 1.1;
 constexpr double kEnvelope_m = 8.0;
 constexpr double kLongestSlip_m = 3.0;
+/// A rover that digs itself in moves a little, and not at random from one sample to the next.
+constexpr double kDiggingStd_mps = 0.05;
+constexpr double kDiggingTime_s = 1.0;
 
 Innovation1 innovationOf(const Measurement& m, int persistent_slip, const ErrorCovariance& P) {
   return {m.residual(0), (m.H * covarianceWithPrediction(m.H, P))(0, 0) + m.variance(0),
@@ -77,9 +80,41 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   if (wheels.count > 1 && wheels.count == wheel_monitor_.count()) {
     wheel_monitor_.add(wheels.stamp, wheels.circumferential_mps, motion.omega_ib_b.z());
   }
-  const bool at_rest = detector_.judge(planet_.gravity_n(state_.position).norm());
-  const bool corrected = at_rest ? stand(wheels, motion) : drive(wheels, motion);
+  const bool at_rest = detector_.judge(planet_.gravity_n(state_.position).norm(), !stuck_.isSuspected());
+  const bool stuck = !at_rest && use_zupt_ && spinsOnTheSpot(wheels, motion);
+  if (at_rest) {
+    stuck_.reset();
+  }
+  const bool corrected = at_rest ? stand(wheels, motion)
+                         : stuck ? standOnSpinningWheels(wheels, motion)
+                                 : drive(wheels, motion);
+  estimate_.stuck = stuck;
   estimate_.noise_factors = adaptation_.factors();
+  return corrected;
+}
+
+/// Whether it stands while its wheels turn. Needs a drive to compare with, seen before.
+bool FilterEngine::spinsOnTheSpot(const WheelMotion& wheels, const BodyMotion& motion) {
+  SpinEvidence evidence;
+  evidence.stamp = wheels.stamp;
+  evidence.level_of_rest = detector_.hasLevelOfRest(planet_.gravity_n(state_.position).norm());
+  evidence.calmer_than_driving = detector_.isCalmerThanDriving(stuck_.isSuspected());
+  evidence.forward_mps = motion.v_eb_b.x();
+  const VelocityJacobian H_v = average_.jacobian();
+  evidence.forward_std_mps = std::sqrt(std::max(0.0, (H_v.row(0) * P_ * H_v.row(0).transpose())(0, 0)));
+  evidence.wheels_mps = wheels.largest_speed_mps;
+  return stuck_.judge(evidence);
+}
+
+/// Wheels that spin say nothing about speed, heading or ground.
+bool FilterEngine::standOnSpinningWheels(const WheelMotion& wheels, const BodyMotion& motion) {
+  estimate_.stationary = false;
+  estimate_.wheel_speed_used = false;
+  MeasurementSet set;
+  set.add(kZeroVelocity, zeroVelocityMeasurement(square(kDiggingStd_mps) * kDiggingTime_s / motion.duration_s, state_));
+  const bool corrected = update(set);
+  constraint_average_.restart(wheels.stamp);
+  adaptation_.constraintsUsed();
   return corrected;
 }
 
@@ -189,7 +224,18 @@ void FilterEngine::addForwardSpeed(const WheelMotion& wheels, const BodyMotion& 
   } else {
     loosen(m, wheels.stamp, squared / std::max(square(interval.slipping_speed_mps), 1e-12));
   }
+  openSlowSlip();
   set.add(kForwardSpeed, m);
+}
+
+void FilterEngine::openSlowSlip() {
+  const GroundStep& ground = adaptation_.ground();
+  if (lasting_slip_.add(vehicle_.fast_slip, std::sqrt(ground.fast_slip_variance), way_since_wheels_m_,
+                        setup_.vehicle.fast_slip_length_m)) {
+    P_(kSlowSlip, kSlowSlip) += square(vehicle_.fast_slip);
+    P_(kFastSlip, kFastSlip) += square(vehicle_.fast_slip);
+    slow_envelope_ = std::max(slow_envelope_, square(vehicle_.fast_slip));
+  }
 }
 
 /// @param jump square of the slip that would explain the innovation

@@ -101,6 +101,9 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
       note(std::string(componentName(component)) + " contradicts", now);
     }
   }
+  if (filter.isStuck()) {
+    note("stuck: the wheels turn and the rover stands", now);
+  }
   for (std::size_t i = 0; i < wheel_names_.size(); ++i) {
     if (filter.wheelMonitor().isFaulty(i)) {
       note(wheel_names_[i] + " contradicts the other wheels", now);

@@ -92,6 +92,9 @@ std::uint8_t statusOf(const Estimate& estimate, double max_wheel_interval_s) {
   if (toSeconds(estimate.nav.stamp - estimate.wheels.stamp) > max_wheel_interval_s) {
     return NavState::STATUS_INERTIAL;
   }
+  if (estimate.stuck) {
+    return NavState::STATUS_STUCK;
+  }
   return estimate.stationary ? NavState::STATUS_STATIONARY : NavState::STATUS_MOVING;
 }
 

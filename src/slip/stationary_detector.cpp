@@ -17,6 +17,7 @@ constexpr double kLevelKnown_s = 1.0;
 constexpr double kRestFactor = 3.0;
 /// Rest is at least so much calmer than driving.
 constexpr double kCalmerThanDriving = 3.0;
+constexpr double kStillCalmer = 1.5;
 /// Before the wheels have ever turned, and before any rest is known: an engine may run.
 constexpr double kBeforeDriving = 6.0;
 constexpr double kNoiseFactor = 2.0;
@@ -136,7 +137,19 @@ bool StationaryDetector::meansAreThoseOfRest(const Window& w, double gravity_mps
          w.omega_ib_b.norm() <= kBiasSigmas * floor_.gyro_bias_std + kRateTolerance_radps;
 }
 
-bool StationaryDetector::judge(double gravity_mps2) {
+bool StationaryDetector::hasLevelOfRest(double gravity_mps2) const {
+  const Window w = window();
+  return w.filled && meansAreThoseOfRest(w, gravity_mps2);
+}
+
+bool StationaryDetector::isCalmerThanDriving(bool was) const {
+  const Window w = window();
+  const double factor = square(was ? kStillCalmer : kCalmerThanDriving);
+  return w.filled && drive_.time_s >= kLevelKnown_s && factor * w.accel_variance <= drive_.accel_variance &&
+         factor * w.gyro_variance <= drive_.gyro_variance;
+}
+
+bool StationaryDetector::judge(double gravity_mps2, bool drives) {
   const Window w = window();
   const double interval_s = last_judged_ == 0 ? 0.0 : std::min(toSeconds(last_wheels_ - last_judged_), 1.0);
   last_judged_ = last_wheels_;
@@ -144,7 +157,9 @@ bool StationaryDetector::judge(double gravity_mps2) {
     return false;
   }
   if (!wheels_at_rest_) {
-    drive_.add(w, interval_s, kDriveMemory_s);
+    if (drives) {
+      drive_.add(w, interval_s, kDriveMemory_s);
+    }
     return false;
   }
   const bool at_rest = last_wheels_ - wheels_at_rest_since_ >= fromSeconds(params_.hold_off_s) && scattersLikeRest(w) &&

@@ -78,6 +78,7 @@ struct Estimate {
   VehicleState vehicle;
   NoiseFactors noise_factors;  ///< learned, see NoiseScales
   bool stationary = false;
+  bool stuck = false;             ///< it stands while the wheels turn
   bool wheel_speed_used = false;  ///< the forward speed of that sample passed its gate
   bool has_wheels = false;        ///< a wheel sample ended in this step
   WheelMotion wheels;             ///< the last one

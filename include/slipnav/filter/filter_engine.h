@@ -16,6 +16,7 @@
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/filter/gated_update.h"
+#include "slipnav/filter/lasting_slip.h"
 #include "slipnav/filter/mean_motion.h"
 #include "slipnav/filter/noise_adaptation.h"
 #include "slipnav/filter/slipping_speed.h"
@@ -24,6 +25,7 @@
 #include "slipnav/ins/ins_engine.h"
 #include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/slip/stationary_detector.h"
+#include "slipnav/slip/stuck_detector.h"
 
 namespace slipnav {
 
@@ -79,6 +81,8 @@ class FilterEngine {
   const ComponentStatus& status(Component component) const { return update_.status(component); }
   const ErrorDynamics& dynamics() const { return dynamics_; }
   const WheelMonitor& wheelMonitor() const { return wheel_monitor_; }
+  /// Whether the rover stands while its wheels turn, as of the last wheel sample.
+  bool isStuck() const { return stuck_.isStuck(); }
 
  private:
   bool isCertain(const InsStep& step) const;
@@ -92,6 +96,9 @@ class FilterEngine {
   bool applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion);
   bool stand(const WheelMotion& wheels, const BodyMotion& motion);
   bool drive(const WheelMotion& wheels, const BodyMotion& motion);
+  bool spinsOnTheSpot(const WheelMotion& wheels, const BodyMotion& motion);
+  bool standOnSpinningWheels(const WheelMotion& wheels, const BodyMotion& motion);
+  void openSlowSlip();
   void addForwardSpeed(const WheelMotion& wheels, const BodyMotion& motion, MeasurementSet& set);
   void addConstraints(MeasurementSet& set);
   void loosen(const Measurement& forward, Nanoseconds stamp, double jump);
@@ -110,6 +117,7 @@ class FilterEngine {
   StationaryDetector detector_;
   GatedUpdate update_;
   UnseenMotion unseen_motion_;
+  StuckDetector stuck_;
   WheelMonitor wheel_monitor_;
   Tremor tremor_;
   NoiseAdaptation adaptation_;
@@ -134,6 +142,7 @@ class FilterEngine {
   double way_since_wheels_m_ = 0.0;  ///< of the surface, in the last wheel interval
   double slow_envelope_ = 0.0;       ///< of the variance of slow slip in steady state
   double side_envelope_ = 0.0;
+  LastingSlip lasting_slip_;
   double slipping_way_m_ = 0.0;     ///< over which wheel speeds have contradicted
   double surface_speed_mps_ = 0.0;  ///< of the wheels, last sample
   MeanMotion average_;              ///< over the wheel interval that is open

@@ -31,9 +31,9 @@ class NoiseAdaptation {
   void interrupt() { meter_.interrupt(); }
 
   /// Slip of the ground under a step, and its noise and that of the shaken IMU, into a transition.
-  /// @param state at the end of the step; @param way_m of the wheels' surface in it
-  void addNoise(const ErrorDynamics& dynamics, const InsStep& step, const NavigationState& state, double way_m,
-                ErrorTransition& transition);
+  /// @param state at the end of the step; @param slow_slip as estimated; @param way_m of the wheels' surface in it
+  void addNoise(const ErrorDynamics& dynamics, const InsStep& step, const NavigationState& state, double slow_slip,
+                double way_m, ErrorTransition& transition);
 
   /// Slip of the ground in steady state, as it was in the last step.
   const GroundStep& ground() const { return ground_; }

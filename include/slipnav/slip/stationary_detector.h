@@ -53,9 +53,16 @@ class StationaryDetector {
 
   /// True when wheels and IMU have agreed on rest for the hold-off time, as of the last wheel sample. Learns from it.
   /// @param gravity_mps2 magnitude of the local gravity
-  bool judge(double gravity_mps2);
+  /// @param drives whether wheels that turn drive the rover; what it feels while they spin is not how driving feels
+  bool judge(double gravity_mps2, bool drives = true);
 
   bool wheelsAtRest() const { return wheels_at_rest_; }
+
+  /// Whether specific force and rate are those of rest in the mean, whatever the wheels say.
+  bool hasLevelOfRest(double gravity_mps2) const;
+  /// Whether the IMU is clearly calmer now than in the last seconds of driving.
+  /// @param was whether it has been so: then it takes less to stay so
+  bool isCalmerThanDriving(bool was) const;
 
   /// Means over the window; only after a sample.
   struct Window {
