@@ -7,6 +7,7 @@ from .fleet import Failure
 
 NOT_KNOWN = "-"
 
+
 @dataclass(frozen=True)
 class Options:
     seeds: int

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "slipnav/config/parameter_checker.h"
 #include "slipnav/config/text.h"
 
 namespace slipnav {

@@ -17,6 +17,18 @@ void throwIfAny(const std::string& key, const std::string& complaint) {
 
 }  // namespace
 
+std::string describeRange(const Range& range) {
+  const bool has_min = std::isfinite(range.min);
+  const bool has_max = std::isfinite(range.max);
+  if (has_min && has_max) {
+    return formatNumber(range.min) + " to " + formatNumber(range.max);
+  }
+  if (has_min) {
+    return "at least " + formatNumber(range.min);
+  }
+  return has_max ? "at most " + formatNumber(range.max) : "";
+}
+
 std::string complaintAbout(double value, const Range& range) {
   if (!std::isfinite(value)) {
     return "must be a finite number, not " + formatNumber(value);

@@ -51,18 +51,6 @@ std::optional<double> parseNumber(const std::string& text) {
 
 std::optional<int> parseInteger(const std::string& text) { return parseAll<int>(text); }
 
-std::string describeRange(const Range& range) {
-  const bool has_min = std::isfinite(range.min);
-  const bool has_max = std::isfinite(range.max);
-  if (has_min && has_max) {
-    return formatNumber(range.min) + " to " + formatNumber(range.max);
-  }
-  if (has_min) {
-    return "at least " + formatNumber(range.min);
-  }
-  return has_max ? "at most " + formatNumber(range.max) : "";
-}
-
 std::string joinAlternatives(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i) {

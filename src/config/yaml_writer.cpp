@@ -4,6 +4,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "slipnav/config/parameter_checker.h"
 #include "slipnav/config/text.h"
 
 namespace slipnav {

@@ -11,6 +11,7 @@
 
 namespace slipnav {
 
+/// Writes one JSON object, member by member, in the order of the calls.
 class JsonObject {
  public:
   JsonObject() { out_.imbue(std::locale::classic()); }

@@ -58,6 +58,7 @@ class StateSpaceFilter {
   Eigen::MatrixXd whitened_;
 };
 
+/// The filter for components whose states come to at most D.
 template <int D>
 class FixedStateSpaceFilter : public StateSpaceFilter {
  public:

@@ -8,6 +8,7 @@
 
 namespace slipnav {
 
+/// Private parameters of the simulator nodelet.
 struct SimulationOptions {
   std::string policy;        ///< none, periodic:EVERY_S:HOLD_S (the operator stops), autonomous (the supervisor does)
   std::string out;           ///< folder of the results; empty: none

@@ -14,6 +14,7 @@ namespace slipnav {
 std_msgs::ColorRGBA toMessage(const Colour& colour);
 geometry_msgs::Point toPoint(const Vector3& position);
 
+/// One rviz marker array in one frame, built shape by shape.
 class MarkerSketch {
  public:
   /// @param locked markers move with their frame between one publication and the next

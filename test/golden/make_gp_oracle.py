@@ -63,7 +63,9 @@ def predict(model, ahead):
 
 
 def fixed_cases():
-    paper = lambda v, l: variance(v) * Brownian() * length("rbf", l)
+    def paper(v, scale):
+        return variance(v) * Brownian() * length("rbf", scale)
+
     yield "paper_counts", "paper", 1.0, paper(3.6e-5, 10.0), 0.0028
     yield "paper_short", "paper", 1.0, paper(6e-5, 1.5), 0.001
     yield "paper_long", "paper", 1.0, paper(2e-4, 80.0), 0.0026

@@ -22,9 +22,9 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-import matplotlib.image
-import matplotlib.pyplot as plt
-import numpy as np
+import matplotlib.image  # noqa: E402
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))

@@ -16,6 +16,13 @@ std::string complaint(const SampleParameters& parameters) {
   return messageOf<std::invalid_argument>([&] { checkParameters(parameters); });
 }
 
+TEST(ConfigChecker, RangesInWords) {
+  EXPECT_EQ(describeRange({0.0, 1.0}), "0 to 1");
+  EXPECT_EQ(describeRange({0.5}), "at least 0.5");
+  EXPECT_EQ(describeRange({-std::numeric_limits<double>::infinity(), 2.0}), "at most 2");
+  EXPECT_EQ(describeRange({}), "");
+}
+
 TEST(ConfigChecker, DefaultsPass) { EXPECT_NO_THROW(checkParameters(SampleParameters{})); }
 
 TEST(ConfigChecker, BoundsBelongToTheRange) {

@@ -37,13 +37,6 @@ TEST(ConfigText, IntegersAreWholeAndFit) {
   EXPECT_EQ(parseInteger("3000000000"), std::nullopt);
 }
 
-TEST(ConfigText, RangesInWords) {
-  EXPECT_EQ(describeRange({0.0, 1.0}), "0 to 1");
-  EXPECT_EQ(describeRange({0.5}), "at least 0.5");
-  EXPECT_EQ(describeRange({-std::numeric_limits<double>::infinity(), 2.0}), "at most 2");
-  EXPECT_EQ(describeRange({}), "");
-}
-
 TEST(ConfigText, AlternativesInWords) {
   EXPECT_EQ(joinAlternatives({}), "");
   EXPECT_EQ(joinAlternatives({"a"}), "a");

@@ -35,6 +35,9 @@ class ParameterChecker : public ParameterVisitor {
   ParameterPath path_;
 };
 
+/// "0 to 1", "at least 0", "at most 1", or "" for an unbounded range.
+std::string describeRange(const Range& range);
+
 /// What is wrong with a value ("must be 0 to 1, not 2"), or "" when nothing is. Shared by the checker and the readers.
 std::string complaintAbout(double value, const Range& range);
 std::string complaintAbout(const std::string& value, const std::vector<std::string>& options);

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "slipnav/config/parameter_visitor.h"
-
 namespace slipnav {
 
 /// Shortest decimal text that reads back as the same double, whatever the process locale.
@@ -18,9 +16,6 @@ std::optional<double> parseNumber(const std::string& text);
 
 /// A decimal integer; nothing unless all of `text` is one and it fits.
 std::optional<int> parseInteger(const std::string& text);
-
-/// "0 to 1", "at least 0", "at most 1", or "" for an unbounded range.
-std::string describeRange(const Range& range);
 
 /// "a, b or c".
 std::string joinAlternatives(const std::vector<std::string>& names);

@@ -1,24 +1,11 @@
 #pragma once
 /// Puts truth that lives in a frame of its own into the frame of the estimate. Truth moves, the estimate stays.
 
-#include <optional>
-
 #include "slipnav/eval/estimate.h"
+#include "slipnav/eval/truth_params.h"
 #include "slipnav/eval/truth_track.h"
 
 namespace slipnav {
-
-/// How the start pose of truth becomes the start pose of the estimate.
-enum class StartAlignment {
-  kYaw,      ///< position and heading: for a levelled truth frame (z up), such as odometry or a levelled arena
-  kFullPose  ///< position and full attitude: for truth in the robot's own start frame, which leans as the robot did
-};
-
-/// How truth is laid over the estimate.
-struct TruthAlignment {
-  std::optional<StartAlignment> at_start;    ///< for truth in a frame of its own
-  std::optional<double> heading_distance_m;  ///< turn truth to fit the first metres, for fixes too poor to tell more
-};
 
 /// Moves truth rigidly so that its pose equals that of the estimate at the first truth epoch that the estimate covers.
 /// Throws std::invalid_argument when the two have no epoch in common or truth has no attitude there.

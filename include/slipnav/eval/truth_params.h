@@ -1,12 +1,24 @@
 #pragma once
 /// How a recorded truth is laid over the estimate.
 
+#include <optional>
 #include <string>
 
 #include "slipnav/config/parameter_visitor.h"
-#include "slipnav/eval/alignment.h"
 
 namespace slipnav {
+
+/// How the start pose of truth becomes the start pose of the estimate.
+enum class StartAlignment {
+  kYaw,      ///< position and heading: for a levelled truth frame (z up), such as odometry or a levelled arena
+  kFullPose  ///< position and full attitude: for truth in the robot's own start frame, which leans as the robot did
+};
+
+/// How truth is laid over the estimate.
+struct TruthAlignment {
+  std::optional<StartAlignment> at_start;    ///< for truth in a frame of its own
+  std::optional<double> heading_distance_m;  ///< turn truth to fit the first metres, for fixes too poor to tell more
+};
 
 /// Block `truth`.
 struct TruthParams {

@@ -8,7 +8,6 @@
 
 #include "slipnav/container/ring_queue.h"
 #include "slipnav/filter/cadence.h"
-#include "slipnav/ins/imu_screen.h"
 #include "slipnav/sensors.h"
 
 namespace slipnav {

@@ -20,7 +20,7 @@
 #include "slipnav/config/config.h"
 #include "slipnav/ros/callback_thread.h"
 #include "slipnav/ros/clock_watch.h"
-#include "slipnav/ros/patience.h"
+#include "slipnav/ros/patience_limits.h"
 #include "slipnav/ros/shared_publisher.h"
 #include "slipnav/ros/tuning_server.h"
 

@@ -5,7 +5,7 @@
 #include <deque>
 #include <functional>
 
-#include "slipnav/ros/patience.h"
+#include "slipnav/ros/patience_limits.h"
 #include "slipnav/stop/stop_supervisor.h"
 
 namespace slipnav {

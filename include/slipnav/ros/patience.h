@@ -11,14 +11,9 @@
 #include <optional>
 
 #include "slipnav/ins/ins_engine.h"
+#include "slipnav/ros/patience_limits.h"
 
 namespace slipnav {
-
-/// [s] of the wall clock, on a rover.
-inline constexpr double kPatience_s = 0.2;
-/// [s] of the wall clock, where time is that of a recording or a simulation: on a machine that is busy with other
-/// things a message may be on its way for long, and no rover waits.
-inline constexpr double kSimulatedPatience_s = 2.0;
 
 /// Newest stamp of one sensor that came at least the patience ago.
 class TrustedStamp {
