@@ -18,6 +18,7 @@ constexpr double kSlipWidth_m = 0.6;
 constexpr double kStopDiameter_m = 0.9;
 constexpr float kFanAlpha = 0.7F;
 constexpr double kForecastLifetime_s = 5.0;
+constexpr double kLifetimeOfNow_s = 3.0;  // by the clock of ROS; some periods of publishing
 
 // Heights against the track that keep apart, seen from above, what lies on the same spot [m].
 constexpr double kFanHeight_m = -0.10;
@@ -104,6 +105,15 @@ void drawStopAhead(const Course& course, const ErrorForecast& forecast, MarkerSk
   sketch.line("stop ahead", 0, {at[0].left_enu_m, at[0].right_enu_m}, 2.0 * kThinLine_m, kLimitColour);
 }
 
+/// What is of now goes by itself when this nodelet has died.
+void limitLifetime(std::vector<Marker>& markers) {
+  for (Marker& marker : markers) {
+    const bool is_of_now = marker.ns == "forecast" || marker.ns == "horizon" || marker.ns == "stop ahead" ||
+                           marker.ns == "ellipse" || marker.ns == "error";
+    marker.lifetime = ros::Duration(is_of_now ? kLifetimeOfNow_s : 0.0);
+  }
+}
+
 bool isCurrent(const ErrorForecast* forecast, const EstimateSample& newest) {
   return forecast != nullptr && forecast->threshold_m > 0.0 && !forecast->times_s.empty() &&
          forecast->times_s.size() == forecast->horizontal_bound_m.size() &&
@@ -161,6 +171,7 @@ visualization_msgs::MarkerArray OverlayMarkers::make(const DrivePicture& picture
     drawLegend(params_, beside_rover);
   }
   visualization_msgs::MarkerArray array = sketch.markers();
+  limitLifetime(array.markers);
   array.markers.insert(array.markers.end(), beside_rover.markers().markers.begin(),
                        beside_rover.markers().markers.end());
   std::set<Key> shown;

@@ -64,6 +64,8 @@ TEST_F(OverlayMessagesTest, EveryMarkerIsOfItsFrameAndValid) {
     EXPECT_EQ(static_cast<bool>(marker.frame_locked), beside_rover);
     EXPECT_EQ(marker.header.stamp.toSec(), 20.0);
     EXPECT_EQ(marker.pose.orientation.w, 1.0);
+    const bool stays = beside_rover || marker.ns == "slip" || marker.ns == "stops" || marker.ns == "stop labels";
+    EXPECT_EQ(marker.lifetime.isZero(), stays) << marker.ns;
     EXPECT_TRUE(marker.colors.empty() || marker.colors.size() == marker.points.size()) << marker.ns;
     EXPECT_TRUE(marker.type != Marker::TRIANGLE_LIST || marker.points.size() % 3 == 0);
   }
