@@ -93,7 +93,8 @@ void OperatorView::addForecast(double now_s, OperatorPicture& picture) const {
   for (const auto& [time_s, bound_m] : bounds_) {
     picture.history.emplace_back(now_s - time_s, bound_m);
   }
-  if (!picture.isStale() && isFresh(forecast_, now_s, kForecastLifetime_s) && !forecast_->message.horizontal_bound_m.empty()) {
+  if (!picture.isStale() && isFresh(forecast_, now_s, kForecastLifetime_s) &&
+      !forecast_->message.horizontal_bound_m.empty()) {
     picture.bound_m = forecast_->message.horizontal_bound_m.front();
   }
   picture.threshold_m = forecast_ ? forecast_->message.threshold_m : 0.0;

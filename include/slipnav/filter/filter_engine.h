@@ -139,7 +139,7 @@ class FilterEngine {
   RingQueue<AntennaFix> fixes_;  ///< not yet applied, by stamp
   Cadence fix_cadence_;          ///< of those that have been worked off
   Nanoseconds fixes_complete_until_ = 0;
-  Nanoseconds used_fix_ = 0;     ///< stamp of the newest one that passed, 0: none
+  Nanoseconds used_fix_ = 0;  ///< stamp of the newest one that passed, 0: none
   SlippingSpeed slipping_speed_;
   double last_forward_mps_ = 0.0;    ///< predicted, mean over the wheel interval before
   double way_since_wheels_m_ = 0.0;  ///< of the surface, in the last wheel interval
