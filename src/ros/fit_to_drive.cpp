@@ -50,7 +50,7 @@ FitToDrive::Verdict FitToDrive::verdict(double now_s) const {
     }
   }
   if (nodelets_.empty()) {
-    return {DiagnosticStatus::STALE, "no nodelet has said anything yet"};
+    return {DiagnosticStatus::WARN, "no nodelet has said anything yet"};
   }
   if (problems.empty()) {
     return {DiagnosticStatus::OK, kFitToDrive};

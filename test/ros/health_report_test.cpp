@@ -64,7 +64,7 @@ diagnostic_msgs::DiagnosticArray said(const std::string& name, int level, const 
 
 TEST(FitToDrive, SumsUpTheWorstFirst) {
   FitToDrive fit("/");
-  EXPECT_EQ(fit.verdict(0.0).level, DiagnosticStatus::STALE);
+  EXPECT_EQ(fit.verdict(0.0).level, DiagnosticStatus::WARN);
   fit.take(said("manager: /ins", DiagnosticStatus::OK, "mechanising"), 0.0);
   fit.take(said("manager: /filter", DiagnosticStatus::OK, "running"), 0.0);
   EXPECT_EQ(fit.verdict(1.0).level, DiagnosticStatus::OK);
