@@ -47,6 +47,7 @@ void Config::visit(ParameterVisitor& v) {
   v.group("nonholonomic", nonholonomic, "what it is worth that the rover moves along its wheels");
   v.group("zero_motion", zero_motion, "what standstill is worth");
   v.group("stationary", stationary, "when the rover counts as standing still");
+  v.group("gnss", gnss, "what satellite positions are used for");
   v.group("filter", filter, "error-state Kalman filter");
   v.group("initialization", initialization, "how the start is found");
   v.group("checkpoint", checkpoint, "going on after a crash");
@@ -69,6 +70,7 @@ NavigationSetup Config::navigation() const {
   setup.filter.zero = zero_motion;
   setup.filter.stationary = stationary;
   setup.filter.wheel_monitor = wheel_monitor;
+  setup.filter.gnss = gnss;
   setup.filter.wheels = wheels;
   setup.filter.lever_imu_to_reference_b = -imu.mount.position_b();
   setup.filter.lever_imu_to_antenna_b = gps_mount.position_b() - imu.mount.position_b();
@@ -79,6 +81,9 @@ void Config::requireConsistent() const {
   if (zero_motion.least_velocity_std_mps > zero_motion.largest_velocity_std_mps) {
     throw std::invalid_argument(
         "'zero_motion.least_velocity_std_mps' must not be above 'zero_motion.largest_velocity_std_mps'");
+  }
+  if (gnss.always() && topics.gps_fix == topics.truth_fix) {
+    throw std::invalid_argument("'topics.gps/fix' and 'topics.truth/fix' must differ with 'gnss.use: always'");
   }
   if (forecast.horizon_s < forecast.step_s) {
     throw std::invalid_argument("'forecast.horizon_s' must not be below 'forecast.step_s'");

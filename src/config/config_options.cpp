@@ -1,15 +1,22 @@
 #include "slipnav/config/config_options.h"
 
+#include "slipnav/config/legacy_start.h"
+
 namespace slipnav {
 
 void declareConfigOptions(CommandLine& command_line) {
   command_line.repeated("config", "YAML", "configuration file; of several the later ones win")
+      .repeated("legacy-start", "YAML", "init_params.yaml of the paper's own software: start, heading and biases")
       .repeated("topic", "NAME:=OTHER", "what the robot or the recording calls a topic")
       .repeated("set", "BLOCK.KEY=VALUE", "one setting, over those of the files");
 }
 
 Config configFromOptions(const Arguments& arguments, std::vector<std::string> first) {
   std::vector<Override> overrides;
+  for (const std::string& file : arguments.all("legacy-start")) {
+    const std::vector<Override> start = legacyStart(file);
+    overrides.insert(overrides.end(), start.begin(), start.end());
+  }
   for (const std::string& argument : arguments.all("topic")) {
     overrides.push_back(topicOverride(argument));
   }

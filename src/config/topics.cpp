@@ -8,7 +8,7 @@ void TopicNames::visit(ParameterVisitor& v) {
   v.text("imu/data", imu, "in: sensor_msgs/Imu");
   v.text("joint_states", joint_states, "in: sensor_msgs/JointState, the wheels' rates or angles");
   v.text("wheel_odometry", wheel_odometry, "in: nav_msgs/Odometry, instead of joint_states");
-  v.text("gps/fix", gps_fix, "in: sensor_msgs/NavSatFix, for initialisation only");
+  v.text("gps/fix", gps_fix, "in: sensor_msgs/NavSatFix, for the start, and while driving with gnss.use: always");
   v.text("gps/velocity", gps_velocity, "in: geometry_msgs/TwistWithCovarianceStamped, the same, not needed");
   v.text("truth/fix", truth_fix, "in: sensor_msgs/NavSatFix, the truth for overlay and metrics only");
   v.text("truth/odometry", truth_odometry, "in: nav_msgs/Odometry, the same");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +11,10 @@
 
 namespace slipnav {
 namespace {
+
+/// Receivers give a fix every second at least; after a longer silence nobody knows when the next one comes [s].
+constexpr double kLongestFixInterval_s = 2.5;
+constexpr std::size_t kMaxFixes = 4096;  // not yet applied
 
 bool earlier(const AntennaFix& a, const AntennaFix& b) {
   return std::pair(stampOf(a), a.index()) < std::pair(stampOf(b), b.index());
@@ -31,13 +36,15 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
       use_nonholonomic_(setup.filter.uses("nonholonomic")),
       use_zupt_(setup.filter.uses("zupt")),
       use_zaru_(setup.filter.uses("zaru")),
-      wheels_(setup.filter.max_wheel_interval_s) {}
+      wheels_(setup.filter.max_wheel_interval_s),
+      fix_cadence_(kLongestFixInterval_s) {}
 
 void FilterEngine::reset() {
   initialised_ = false;
   steps_.clear();
   wheels_.clear();
   fixes_.clear();
+  fixes_complete_until_ = 0;
 }
 
 void FilterEngine::retune(const FilterSetup& setup) {
@@ -78,6 +85,8 @@ void FilterEngine::initialise(const InitialState& initial) {
   while (!fixes_.empty() && stampOf(fixes_.front()) <= initial.nav.stamp) {
     fixes_.pop_front();
   }
+  fix_cadence_.restart(initial.nav.stamp);
+  used_fix_ = 0;
 }
 
 void FilterEngine::push(const InsStep& step) {
@@ -151,15 +160,33 @@ bool FilterEngine::push(const AntennaFix& fix) {
   if (!finite || (initialised_ && stampOf(fix) <= state_.stamp)) {
     return false;
   }
+  if (fixes_.size() >= kMaxFixes) {
+    fixes_.pop_front();
+  }
   fixes_.insertSorted(fix, earlier);
   return true;
 }
 
+Nanoseconds FilterEngine::fixesKnownUntil() const {
+  if (!setup_.gnss.always()) {
+    return std::numeric_limits<Nanoseconds>::max();
+  }
+  Nanoseconds known = fix_cadence_.newest();
+  for (std::size_t i = 0; i < fixes_.size() && !fix_cadence_.isHole(known, stampOf(fixes_[i])); ++i) {
+    known = stampOf(fixes_[i]);
+  }
+  return std::max({known, fix_cadence_.quietUntil() - 1, fixes_complete_until_});
+}
+
 bool FilterEngine::isCertain(const InsStep& step) const {
+  const double passed_s = toSeconds(steps_.back().state.stamp - step.state.stamp);
+  if (fixesKnownUntil() < step.state.stamp && passed_s < setup_.gnss.max_wait_s) {
+    return false;
+  }
   if (setup_.filter.updates.empty() || wheels_.knownUntil() >= step.state.stamp) {
     return true;
   }
-  return toSeconds(steps_.back().state.stamp - step.state.stamp) >= setup_.filter.max_wait_s;
+  return passed_s >= setup_.filter.max_wait_s;
 }
 
 std::optional<Correction> FilterEngine::advance(const EstimateSink& sink) {
@@ -232,15 +259,30 @@ bool FilterEngine::applyFixes(const InsStep& step) {
   while (!fixes_.empty() && stampOf(fixes_.front()) <= state_.stamp) {
     MeasurementSet set;
     if (const auto* position = std::get_if<PositionFix>(&fixes_.front())) {
-      set.add(kFixPosition, positionMeasurement(planet_, *position, state_, lever_b));
+      addFix(*position, set);
     } else {
       set.add(kFixVelocity, velocityMeasurement(planet_, std::get<VelocityFix>(fixes_.front()), state_, step.f_ib_b,
                                                 step.omega_ib_b, lever_b));
     }
-    corrected = update(set) || corrected;
+    const Nanoseconds stamp = stampOf(fixes_.front());
+    if (update(set)) {
+      corrected = true;
+      used_fix_ = stamp;
+    }
+    if (stamp > fix_cadence_.newest()) {
+      fix_cadence_.add(stamp);
+    }
     fixes_.pop_front();
   }
   return corrected;
+}
+
+/// Gated by what the receiver says of it, and weighted by what it adds to the fixes before.
+void FilterEngine::addFix(const PositionFix& fix, MeasurementSet& set) const {
+  const double factor = setup_.gnss.always() && used_fix_ != 0
+                            ? repeatedFixFactor(toSeconds(fix.stamp - used_fix_), setup_.gnss.correlation_s)
+                            : 1.0;
+  set.add(kFixPosition, positionMeasurement(planet_, fix, state_, setup_.lever_imu_to_antenna_b), factor);
 }
 
 bool FilterEngine::update(MeasurementSet set) {

@@ -88,7 +88,7 @@ std::optional<ErrorVector> GatedUpdate::apply(MeasurementSet& set, Nanoseconds s
     const int n = static_cast<int>(m.residual.size());
     stacked.residual.segment(row, n) = m.residual;
     stacked.H.middleRows(row, n) = m.H;
-    stacked.variance.segment(row, n) = m.variance;
+    stacked.variance.segment(row, n) = set[i].variance_factor * m.variance;
     row += n;
   }
   return kalmanUpdate(stacked, P);

@@ -60,6 +60,14 @@ bool ImuScreen::Repeats::isStuck(int limit) const {
   return limit > 0 && *most >= limit && *least == 0;
 }
 
+bool ImuScreen::Repeats::areFrozen(int limit) const {
+  return limit > 0 && *std::min_element(count.begin(), count.end()) >= limit;
+}
+
+bool ImuScreen::isFrozen() const {
+  return force_.areFrozen(params_.stuck_samples) && rate_.areFrozen(params_.stuck_samples);
+}
+
 bool ImuScreen::isInRange(const ImuSample& sample) const {
   return sample.f_ib_b.cwiseAbs().maxCoeff() < params_.max_specific_force_mps2 &&
          sample.omega_ib_b.cwiseAbs().maxCoeff() < degToRad(params_.max_rate_deg_per_s);

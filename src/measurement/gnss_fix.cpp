@@ -6,6 +6,21 @@
 
 namespace slipnav {
 
+void FixParams::visit(ParameterVisitor& v) {
+  v.choice("use", use, {"start", "always"},
+           "what gps/fix is for: start, to find it; always, while driving as well. The truth topics are never used");
+  v.number("correlation_s", correlation_s, {0.0, 3600.0},
+           "how long the error of the receiver stays about the same: fixes in this time are worth one; 0: errors are "
+           "independent [s]");
+  v.number("max_wait_s", max_wait_s, {0.0, 10.0},
+           "with always, how late a fix may come after the IMU of its time; where none comes regularly, estimates are "
+           "so much later [s]");
+}
+
+double repeatedFixFactor(double interval_s, double correlation_s) {
+  return correlation_s > 0.0 ? 1.0 / std::tanh(0.5 * interval_s / correlation_s) : 1.0;
+}
+
 bool isFinite(const PositionFix& fix) {
   return std::isfinite(fix.position.latitude_rad) && std::isfinite(fix.position.longitude_rad) &&
          std::isfinite(fix.position.height_m) && fix.variance_ned_m2.allFinite();

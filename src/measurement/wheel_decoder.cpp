@@ -7,11 +7,20 @@ namespace slipnav {
 namespace {
 
 /// Several drivers may publish into one topic; a wheel that is in none of so many messages is not there.
-constexpr int kMostOtherJoints = 20;
+constexpr int kMostOtherJoints = 10;
 /// Wheels that have turned this far while all velocities said zero: the velocities are not filled in.
 constexpr double kTurnedWithoutVelocity_rad = 0.2;
 /// Angles are computed in single precision by some drivers.
 constexpr double kAngleSlack_rad = 1e-3;
+
+/// In quotes, with commas between.
+std::string listOf(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    list += (list.empty() ? "'" : ", '") + name + "'";
+  }
+  return list.empty() ? "none" : list;
+}
 
 }  // namespace
 
@@ -92,7 +101,7 @@ bool WheelDecoder::locate(const JointArrays& joints) {
     } else if (found != joints.names.end()) {
       indices.push_back(static_cast<std::size_t>(found - joints.names.begin()));
     } else {
-      problem_ = "has no joint '" + wheel.name + "'";
+      problem_ = "has no joint '" + wheel.name + "', but " + listOf(joints.names);
       return false;
     }
   }

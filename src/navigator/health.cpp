@@ -1,6 +1,7 @@
 #include "slipnav/navigator/health.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 #include <utility>
@@ -9,8 +10,10 @@ namespace slipnav {
 namespace {
 
 /// A measurement that has been rejected for so long contradicts; single ones are outliers.
-constexpr double kRejected_s = 1.0;
-constexpr double kActive_s = 5.0;
+constexpr double kRejected_s = 1.5;
+/// Wheels and vehicle that are both faster than this, in opposite directions, for so long.
+constexpr double kClearSpeed_mps = 0.2;
+constexpr double kAgainst_s = 0.3;
 /// A size is said again when it has grown by so much.
 constexpr double kGrowth = 1.25;
 
@@ -74,11 +77,14 @@ void HealthMonitor::noteImu(Nanoseconds stamp, ImuVerdict verdict) {
   }
 }
 
-void HealthMonitor::noteWheels(Nanoseconds stamp, bool taken) {
+void HealthMonitor::noteWheels(const WheelMotion& wheels, bool taken) {
   if (!taken) {
-    note("wheel sample repeated or too late", stamp);
+    note("wheel sample repeated or too late", wheels.stamp);
   }
-  newest_wheels_ = std::max(newest_wheels_, stamp);
+  if (wheels.stamp >= newest_wheels_) {
+    newest_wheels_ = wheels.stamp;
+    wheel_speed_mps_ = wheels.motion.forward_mps;
+  }
 }
 
 void HealthMonitor::noteFilter(const FilterEngine& filter) {
@@ -86,21 +92,9 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
     return;
   }
   const Nanoseconds now = filter.state().stamp;
-  if (newest_wheels_ == 0) {
-    newest_wheels_ = now;  // watched from here on
-  } else if (toSeconds(now - newest_wheels_) > max_wheel_interval_s_) {
-    note("wheels silent", now);
-  }
-  for (int i = 0; i < kComponents; ++i) {
-    const Component component = static_cast<Component>(i);
-    const ComponentStatus& status = filter.status(component);
-    const bool rejected_again =
-        status.rejected != std::exchange(rejected_[static_cast<std::size_t>(i)], status.rejected);
-    // What is not measured any more contradicts nothing.
-    if (rejected_again && status.rejected_since != 0 && toSeconds(now - status.rejected_since) > kRejected_s) {
-      note(std::string(componentName(component)) + " contradicts", now);
-    }
-  }
+  noteSilence(now);
+  noteDirection(filter.state());
+  noteRejections(filter);
   if (filter.isStuck()) {
     note("stuck: the wheels turn and the rover stands", now);
   }
@@ -111,14 +105,41 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
   }
 }
 
-std::string HealthMonitor::active(Nanoseconds now) const {
-  std::string names;
-  for (const auto& [name, alarm] : alarms_) {
-    if (alarm.last <= now && toSeconds(now - alarm.last) < kActive_s) {
-      names += (names.empty() ? "" : ", ") + name;
+void HealthMonitor::noteSilence(Nanoseconds now) {
+  if (newest_wheels_ == 0) {
+    newest_wheels_ = now;  // watched from here on
+  } else if (toSeconds(now - newest_wheels_) > max_wheel_interval_s_) {
+    note("wheels silent", now);
+  }
+}
+
+/// Beyond any slip: a sign, or a vehicle that slides back while its wheels drive ahead. Until the filter believes the
+/// wheels again.
+void HealthMonitor::noteDirection(const NavigationState& state) {
+  const double forward_mps = (state.q_b_to_n.conjugate() * state.v_eb_n).x();
+  const bool against = std::min(std::abs(forward_mps), std::abs(wheel_speed_mps_)) > kClearSpeed_mps &&
+                       forward_mps * wheel_speed_mps_ < 0.0;
+  if (!against) {
+    against_since_ = 0;
+  } else if (against_since_ == 0) {
+    against_since_ = state.stamp;
+  } else if (toSeconds(state.stamp - against_since_) > kAgainst_s) {
+    note("wheels turn against the motion", state.stamp);
+  }
+}
+
+void HealthMonitor::noteRejections(const FilterEngine& filter) {
+  const Nanoseconds now = filter.state().stamp;
+  for (int i = 0; i < kComponents; ++i) {
+    const Component component = static_cast<Component>(i);
+    const ComponentStatus& status = filter.status(component);
+    const bool rejected_again =
+        status.rejected != std::exchange(rejected_[static_cast<std::size_t>(i)], status.rejected);
+    // What is not measured any more contradicts nothing.
+    if (rejected_again && status.rejected_since != 0 && toSeconds(now - status.rejected_since) > kRejected_s) {
+      note(std::string(componentName(component)) + " contradicts", now);
     }
   }
-  return names;
 }
 
 }  // namespace slipnav

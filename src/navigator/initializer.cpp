@@ -327,7 +327,9 @@ void Initializer::levelOnTheMoveInto(Nanoseconds begin, Nanoseconds end, double 
 }
 
 InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until) const {
-  Navigator navigator(planet_, imu_params_, setup_);
+  FilterSetup setup = setup_;
+  setup.gnss = FixParams();  // all fixes are there already
+  Navigator navigator(planet_, imu_params_, setup);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   for (const PositionFix& fix : recording_.fixes()) {
     if (fix.stamp <= until) {

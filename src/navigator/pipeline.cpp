@@ -60,7 +60,7 @@ void Pipeline::use(const ImuSample& sample) {
 void Pipeline::push(const WheelMotion& wheels) {
   ++counts_.wheels;
   const bool taken = navigator_.push(wheels, sink_);
-  health_.noteWheels(wheels.stamp, taken);
+  health_.noteWheels(wheels, taken);
   if (!taken) {
     ++counts_.rejected;
     return;
@@ -77,6 +77,9 @@ void Pipeline::push(const AntennaFix& fix) {
   if (!initial_) {
     initializer_.push(fix);
     tryToStart();
+  }
+  if (setup_.filter.gnss.always() && std::holds_alternative<PositionFix>(fix)) {
+    navigator_.push(fix);
   }
 }
 

@@ -1,6 +1,7 @@
 /// slipnav/Filter: the error-state Kalman filter.
 ///
-/// In: ins_steps, initial_state, joint_states or wheel_odometry, slip_forecast (for checkpoints). Out: correction,
+/// In: ins_steps, initial_state, joint_states or wheel_odometry, gps/fix (with `gnss.use: always`), slip_forecast (for
+/// checkpoints). Out: correction,
 /// odometry, nav_state, slip, hand_over, start_request, TF. Services: save_checkpoint, set_state.
 
 #include <slipnav/FilterCorrection.h>
@@ -12,7 +13,9 @@
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -25,12 +28,14 @@
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
 #include "slipnav/ros/estimate_publisher.h"
+#include "slipnav/ros/fix_input.h"
 #include "slipnav/ros/health_report.h"
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/latency_meter.h"
 #include "slipnav/ros/look_ahead.h"
 #include "slipnav/ros/patience.h"
+#include "slipnav/ros/sensor_watch.h"
 #include "slipnav/ros/wheel_input.h"
 #include "slipnav/ros/wheel_sessions.h"
 
@@ -40,6 +45,10 @@ namespace {
 
 /// How often the state is handed over, in time of the stamps.
 constexpr Nanoseconds kHandOverInterval = kSecond;
+/// [s] without a usable wheel sample, or more where `filter.max_wheel_interval_s` says so.
+constexpr double kSilence_s = 0.5;
+/// [s] without a step of the mechanisation.
+constexpr double kStepSilence_s = 1.0;
 
 }  // namespace
 
@@ -53,8 +62,11 @@ class FilterNodelet : public CoreNodelet {
     wheel_input_.emplace(config);
     checkpoints_.emplace(config.checkpoint);
     health_.emplace(config.navigation().filter);
+    wheels_watch_.emplace("wheels", std::max(kSilence_s, config.filter.max_wheel_interval_s));
     const bool uses_wheels = !config.filter.updates.empty();
     gate_ = StepGate(uses_wheels ? std::optional<double>(config.filter.max_wait_s) : std::nullopt, patience());
+    fix_input_.emplace(config);
+    fix_wait_ = fromSeconds(config.gnss.max_wait_s);
     look_ahead_ = LookAhead(config.filter.max_wait_s);
     lever_imu_to_base_b_ = -config.imu.mount.position_b();
   }
@@ -66,6 +78,9 @@ class FilterNodelet : public CoreNodelet {
     listen<StartState>(kInitialStateTopic, &FilterNodelet::onInitialState);
     listen<sensor_msgs::JointState>(config.topics.joint_states, &FilterNodelet::onWheels<sensor_msgs::JointState>);
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &FilterNodelet::onWheels<nav_msgs::Odometry>);
+    if (config.gnss.always()) {
+      listen<sensor_msgs::NavSatFix>(config.topics.gps_fix, &FilterNodelet::onFix);
+    }
     listen<SlipForecast>(config.topics.slip_forecast, &FilterNodelet::onSlipForecast);
     serve("save_checkpoint", &FilterNodelet::saveCheckpoint);
     serve("set_state", &FilterNodelet::setState);
@@ -105,6 +120,9 @@ class FilterNodelet : public CoreNodelet {
     engine_->reset();
     for (const WheelMotion& wheels : wheel_sessions_.startNext()) {
       useWheels(wheels);
+    }
+    for (const PositionFix& fix : fix_input_->after(initial.nav.stamp)) {
+      engine_->push(AntennaFix(fix));
     }
     engine_->initialise(initial);
     origin_ = initial.origin;
@@ -146,6 +164,7 @@ class FilterNodelet : public CoreNodelet {
       restartMechanisation();
     }
     has_steps_ = true;
+    steps_watch_.heard(clocks());
     const double now_s = now();
     for (const InsInterval& interval : message->steps) {
       gate_.push(fromMessage(interval, message->epoch), now_s);
@@ -186,6 +205,7 @@ class FilterNodelet : public CoreNodelet {
     wheel_problem_ = wheel_input_->problem();
     if (!wheel_problem_.empty()) {
       ++rejected_;
+      wheels_watch_->refused(wheel_problem_, clocks());
       health_->note(wheel_input_->problem(), engine_->state().stamp);
       NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s left out: %s", message->header.stamp.toSec(),
                             wheel_problem_.c_str());
@@ -195,6 +215,7 @@ class FilterNodelet : public CoreNodelet {
       NODELET_WARN("%s", wheel_input_->remark().c_str());
     }
     if (motion) {
+      wheels_watch_->used(clocks());
       jumps_.push(*motion, [this](const WheelMotion& passed) { sortWheels(wheel_time_.push(passed)); });
       proceed();
     }
@@ -227,9 +248,30 @@ class FilterNodelet : public CoreNodelet {
     estimates_->publish(by_clock, P);
   }
 
+  void onFix(const sensor_msgs::NavSatFix::ConstPtr& message) {
+    const std::vector<PositionFix> fixes = fix_input_->take(*message, wheel_time_.time());
+    if (!fix_input_->problem().empty()) {
+      health_->note(fix_input_->problem(), engine_->state().stamp);
+      NODELET_WARN_THROTTLE(10.0, "%s", fix_input_->problem().c_str());
+    }
+    for (const PositionFix& fix : fixes) {
+      if (started_ && !engine_->push(AntennaFix(fix))) {
+        health_->note("satellite position too late", engine_->state().stamp);
+      }
+    }
+    proceed();
+  }
+
+  /// Of the IMU, from which on the filter does not wait for fixes any more.
+  Nanoseconds fixesDecidedAt() const {
+    const Nanoseconds known = engine_->fixesKnownUntil();
+    const Nanoseconds never = std::numeric_limits<Nanoseconds>::max();
+    return known == never ? never : known + fix_wait_;
+  }
+
   void useWheels(const WheelMotion& wheels) {
     const bool taken = engine_->push(wheels);
-    health_->noteWheels(wheels.stamp, taken);
+    health_->noteWheels(wheels, taken);
     if (taken) {
       look_ahead_.addWheels(wheels.stamp);
     } else {
@@ -245,7 +287,8 @@ class FilterNodelet : public CoreNodelet {
     if (!has_steps_) {  // the mechanisation may be loaded later
       return;
     }
-    gate_.release(engine_->wheelsKnownUntil(), now(), [this](const InsStep& step) { engine_->push(step); });
+    gate_.release(
+        engine_->wheelsKnownUntil(), now(), [this](const InsStep& step) { engine_->push(step); }, fixesDecidedAt());
     const std::optional<Correction> correction =
         engine_->advance([this](const Estimate& estimate, const ErrorCovariance& P) {
           look_ahead_.processed(estimate.nav.stamp);
@@ -322,9 +365,7 @@ class FilterNodelet : public CoreNodelet {
                    : !has_steps_         ? "waiting for the mechanisation"
                    : wheel_messages_ > 0 ? "running"
                                          : "no wheel samples");
-    if (!wheel_problem_.empty()) {
-      status.mergeSummary(DiagnosticStatus::WARN, "wheel message left out: " + wheel_problem_);
-    }
+    diagnoseInputs(status);
     status.add("wheel messages", wheel_messages_);
     status.add("rejected wheel messages", rejected_);
     status.add("wheel messages with a wrong stamp", jumps_.leftOut());
@@ -333,7 +374,7 @@ class FilterNodelet : public CoreNodelet {
     }
     latency_.report(status);
     checkpoints_->diagnose(status);
-    report(*health_, engine_->state().stamp, status);
+    alarms_.add(*health_, now(), status);
     for (int i = 0; i < kComponents; ++i) {
       const ComponentStatus& component = engine_->status(static_cast<Component>(i));
       const std::string name = componentName(static_cast<Component>(i));
@@ -343,7 +384,23 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
+  /// The worst first. Where steps are missing the cause stands in the status of Ins, and nothing here is of now.
+  void diagnoseInputs(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+    using diagnostic_msgs::DiagnosticStatus;
+    const std::string failure = wheels_watch_ ? wheels_watch_->problem(wheel_input_->topic(), clocks()) : "";
+    if (!failure.empty()) {
+      status.summary(DiagnosticStatus::ERROR, failure);
+    } else if (!wheel_problem_.empty()) {
+      status.mergeSummary(DiagnosticStatus::WARN, "wheel message left out: " + wheel_problem_);
+    } else if (has_steps_ && steps_watch_.isSilent(clocks())) {
+      status.summary(DiagnosticStatus::STALE, "the mechanisation is silent");
+    }
+  }
+
   std::optional<FilterEngine> engine_;
+  std::optional<SensorWatch> wheels_watch_;
+  SilenceWatch steps_watch_{kStepSilence_s};
+  HealthReport alarms_;
   std::optional<WheelInput> wheel_input_;
   std::optional<CheckpointKeeper> checkpoints_;
   std::optional<HealthMonitor> health_;
@@ -355,6 +412,8 @@ class FilterNodelet : public CoreNodelet {
   JumpFilter<WheelMotion> jumps_;
   ContinuousWheels wheel_time_;
   WheelSessions wheel_sessions_;
+  std::optional<FixInput> fix_input_;
+  Nanoseconds fix_wait_ = 0;
   std::vector<InsSteps::ConstPtr> early_steps_;
   bool started_ = false;
   bool has_steps_ = false;     ///< since the start

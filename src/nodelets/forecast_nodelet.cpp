@@ -21,6 +21,15 @@
 
 namespace slipnav {
 
+namespace {
+
+/// [s] by stamps that something has to last before it is a warning: windows are filled, and fits fail, now and then.
+constexpr double kTrouble_s = 5.0;
+/// [s] without an estimate.
+constexpr double kSilence_s = 2.0;
+
+}  // namespace
+
 class ForecastNodelet : public CoreNodelet {
  public:
   ~ForecastNodelet() override { stop(); }
@@ -49,11 +58,15 @@ class ForecastNodelet : public CoreNodelet {
     const double begin_s = now();
     const Estimate estimate = estimateOf(*message);
     newest_ = estimate.nav.stamp;
+    inputs_watch_.heard(clocks());
     if (const std::optional<Forecast> forecast = forecaster_->push(estimate, covarianceOf(*message))) {
       computation_ms_ = 1e3 * (now() - begin_s);
       publish(*forecast);
     } else if (!forecaster_->problem().empty()) {
       NODELET_WARN_THROTTLE(5.0, "no forecast at %.1f s: %s", toSeconds(newest_), forecaster_->problem().c_str());
+    }
+    if (troubleOf().empty() || newest_ < fine_until_) {
+      fine_until_ = newest_;
     }
     const auto progress = boost::make_shared<std_msgs::Header>();
     progress->stamp = message->state.stamp;
@@ -73,15 +86,26 @@ class ForecastNodelet : public CoreNodelet {
     error_publisher_.publish(error);
   }
 
+  /// Of the newest forecast, "" for none. Single ones are normal.
+  std::string troubleOf() const {
+    if (!forecaster_->problem().empty()) {
+      return "no forecast: " + forecaster_->problem();
+    }
+    const bool fitted = forecasts_ == 0 || fit_.status == SlipFitStatus::kConverged;
+    return fitted ? "" : std::string("the fit did not converge: ") + toString(fit_.status);
+  }
+
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
     const double age_s = toSeconds(newest_ - last_);
-    if (newest_ == 0) {
+    const std::string trouble = newest_ == 0 ? "" : troubleOf();
+    const bool lasts = !trouble.empty() && toSeconds(newest_ - fine_until_) > kTrouble_s;
+    if (inputs_watch_.isSilent(clocks())) {
+      status.summary(DiagnosticStatus::STALE, "no estimates any more");
+    } else if (newest_ == 0) {
       status.summary(DiagnosticStatus::OK, "waiting for estimates");
-    } else if (!forecaster_->problem().empty()) {
-      status.summary(DiagnosticStatus::WARN, "no forecast: " + forecaster_->problem());
-    } else if (fit_.status != SlipFitStatus::kConverged && forecasts_ > 0) {
-      status.summary(DiagnosticStatus::WARN, std::string("the fit did not converge: ") + toString(fit_.status));
+    } else if (lasts) {
+      status.summary(DiagnosticStatus::WARN, trouble);
     } else {
       status.summary(DiagnosticStatus::OK, forecasts_ > 0 ? "forecasting" : "collecting slip");
     }
@@ -106,6 +130,8 @@ class ForecastNodelet : public CoreNodelet {
   std::uint64_t forecasts_ = 0;
   Nanoseconds newest_ = 0;  ///< estimate
   Nanoseconds last_ = 0;    ///< forecast
+  Nanoseconds fine_until_ = 0;
+  SilenceWatch inputs_watch_{kSilence_s};
   SharedPublisher<SlipForecast> slip_publisher_;
   SharedPublisher<ErrorForecast> error_publisher_;
   SharedPublisher<std_msgs::Header> progress_publisher_;

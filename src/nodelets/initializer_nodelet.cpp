@@ -200,10 +200,7 @@ class InitializerNodelet : public CoreNodelet {
   /// Clocks that do not agree are nobody's to correct, but worth a word.
   void watch(const std::string& topic, Nanoseconds stamp) {
     const std::string problem = stamps_->note(topic, stamp);
-    if (!problem.empty()) {
-      stamp_problem_ = problem;
-      NODELET_WARN_THROTTLE(10.0, "%s", problem.c_str());
-    }
+    noteProblem(problem);
   }
 
   void onTick() override {
@@ -260,7 +257,9 @@ class InitializerNodelet : public CoreNodelet {
     if (done_) {
       initializer_->watch(sample);
     }
-    noteProblem(initializer_->complaint());
+    if (!initializer_->complaint().empty()) {
+      NODELET_WARN_THROTTLE(10.0, "%s", initializer_->complaint().c_str());
+    }
   }
 
   /// Ends the estimate and looks for a start anew.
@@ -348,11 +347,11 @@ class InitializerNodelet : public CoreNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(done_ ? DiagnosticStatus::OK : DiagnosticStatus::WARN, progress_);
-    if (!stamp_problem_.empty()) {
-      status.mergeSummary(DiagnosticStatus::WARN, stamp_problem_);
+    if (initializer_ && !initializer_->complaint().empty()) {
+      status.summary(DiagnosticStatus::ERROR, initializer_->complaint());
     }
     if (inputs_) {
-      report(*inputs_, fromSeconds(now()), status);
+      alarms_.add(*inputs_, now(), status);
     }
     status.add("restarts of the clock", session_);
     status.add("starts", starts_);
@@ -361,6 +360,7 @@ class InitializerNodelet : public CoreNodelet {
 
   FrameNames frames_;
   std::optional<ImuInput> imu_input_;
+  HealthReport alarms_;
   std::optional<HealthMonitor> inputs_;  ///< what was wrong with messages, in real time
   std::string fix_topic_;
   Nanoseconds fix_stamp_offset_ = 0;
@@ -372,7 +372,6 @@ class InitializerNodelet : public CoreNodelet {
   std::optional<Resumption> resumption_;
   TrustedStamp trusted_;
   std::optional<StampWatch> stamps_;
-  std::string stamp_problem_;
   StartState::ConstPtr running_;  ///< of the estimate that was there before this nodelet
   std::uint32_t session_ = 0;     ///< restarts of the IMU's clock
   std::uint32_t starts_ = 0;      ///< initial states announced, and searches begun anew

@@ -24,6 +24,7 @@
 #include "slipnav/ros/internal_messages.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/latency_meter.h"
+#include "slipnav/ros/sensor_watch.h"
 
 namespace slipnav {
 
@@ -34,6 +35,8 @@ constexpr double kRepeatInterval_s = 0.5;
 /// [s] of real time after which an initial state of a session that never began here is believed to be of the present
 /// one: this nodelet may have been loaded in the middle of it.
 constexpr double kSessionPatience_s = 2.0;
+/// [s] without a usable sample, of an IMU of 20 Hz or more.
+constexpr double kSilence_s = 0.5;
 
 }  // namespace
 
@@ -47,6 +50,7 @@ class InsNodelet : public CoreNodelet {
     clock_.emplace(config.imu.input.gap_factor);
     engine_.emplace(Planet::byName(config.planet), config.imu.input);
     health_.emplace(config.navigation().filter);
+    imu_topic_ = config.topics.imu;
   }
 
   std::string usualThread() const override { return kNavigationThread; }
@@ -63,6 +67,7 @@ class InsNodelet : public CoreNodelet {
     const std::optional<ImuSample> taken = imu_input_->take(*message);
     if (!taken) {
       ++rejected_;
+      watch_.refused(imu_input_->problem(), clocks());
       health_->note(imu_input_->problem(), engine_->newestStamp());
       NODELET_WARN_THROTTLE(10.0, "%s", imu_input_->problem().c_str());
       return;
@@ -100,8 +105,11 @@ class InsNodelet : public CoreNodelet {
     }
     ++samples_;
     gaps_ += verdict == ImuVerdict::kAfterGap ? 1 : 0;
-    if (!isAccepted(verdict)) {
+    if (isAccepted(verdict)) {
+      watch_.used(clocks());
+    } else {
       ++rejected_;
+      watch_.refused(complaintOf(verdict), clocks());
       NODELET_WARN_THROTTLE(1.0, "IMU sample at %.3f s left out: %s", toSeconds(sample.stamp), complaintOf(verdict));
     }
   }
@@ -201,6 +209,10 @@ class InsNodelet : public CoreNodelet {
                                                                             : samples_ > 0
                                                                                 ? "waiting for the initial state"
                                                                                 : "no IMU samples");
+    const std::string failure = failureOfImu();
+    if (!failure.empty()) {
+      status.summary(DiagnosticStatus::ERROR, failure);
+    }
     status.add("IMU samples", samples_);
     status.addf("IMU rate [Hz]", "%.1f", rate_hz);
     status.add("gaps", gaps_);
@@ -209,13 +221,22 @@ class InsNodelet : public CoreNodelet {
     status.add("samples put back into order", sorter_.overtaken());
     status.add("restarts", session_);
     if (health_) {
-      report(*health_, engine_->newestStamp(), status);
+      alarms_.add(*health_, now(), status);
     }
     diagnosed_samples_ = samples_;
     diagnosed_stamp_ = engine_ ? engine_->newestStamp() : 0;
   }
 
+  /// With this there is nothing to navigate by.
+  std::string failureOfImu() const {
+    const std::string problem = watch_.problem(imu_topic_, clocks());
+    return problem.empty() && engine_ && engine_->isImuFrozen() ? "the IMU repeats the very same values" : problem;
+  }
+
   std::optional<ImuInput> imu_input_;
+  std::string imu_topic_;
+  SensorWatch watch_{"IMU", kSilence_s};
+  HealthReport alarms_;
   Arrivals arrivals_;
   JumpFilter<ImuSample> jumps_;
   ImuSorter sorter_;

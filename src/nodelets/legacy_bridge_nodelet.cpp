@@ -17,6 +17,12 @@
 
 namespace slipnav {
 
+namespace {
+
+constexpr double kSilence_s = 2.0;  // without an estimate
+
+}  // namespace
+
 class LegacyBridgeNodelet : public CoreNodelet {
  public:
   ~LegacyBridgeNodelet() override { stop(); }
@@ -48,6 +54,7 @@ class LegacyBridgeNodelet : public CoreNodelet {
 
   void onNavState(const NavState::ConstPtr& state) {
     ++states_;
+    watch_.heard(clocks());
     publish(position_, messages_->position(*state));
     publish(llh_, messages_->llh(*state));
     publish(ecef_, messages_->ecef(*state));
@@ -69,12 +76,17 @@ class LegacyBridgeNodelet : public CoreNodelet {
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
-    status.summary(diagnostic_msgs::DiagnosticStatus::OK, states_ > 0 ? "translating" : "waiting for estimates");
+    using diagnostic_msgs::DiagnosticStatus;
+    const bool silent = watch_.isSilent(clocks());
+    status.summary(silent ? DiagnosticStatus::STALE : DiagnosticStatus::OK, silent        ? "no estimates any more"
+                                                                            : states_ > 0 ? "translating"
+                                                                                          : "waiting for estimates");
     status.add("estimates", states_);
   }
 
   std::optional<LegacyMessages> messages_;
   std::uint64_t states_ = 0;
+  SilenceWatch watch_{kSilence_s};
   SharedPublisher<PointStamped> position_;
   SharedPublisher<PointStamped> llh_;
   SharedPublisher<PointStamped> ecef_;

@@ -1,7 +1,8 @@
 /// slipnav/Overlay: what rviz shows of a drive.
 ///
-/// In: odometry, slip, initialization, error_forecast, stop; imu/data and the wheels for dead reckoning; truth/fix,
-/// truth/odometry or truth/pose. Out: path, truth/path, wheel_path, markers, model/joint_states, TF of overlay.frame.
+/// In: odometry, slip, initialization, error_forecast; imu/data and the wheels for dead reckoning; truth/fix,
+/// truth/odometry or truth/pose. Out: path, truth/path, wheel_path, markers, figures, model/joint_states, TF of
+/// overlay.frame.
 
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -10,6 +11,7 @@
 #include <sensor_msgs/NavSatFix.h>
 #include <slipnav/Initialization.h>
 #include <slipnav/Slip.h>
+#include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <pluginlib/class_list_macros.hpp>
@@ -35,7 +37,9 @@ namespace {
 /// clock that has gone back it is a new one.
 constexpr double kSameDrive_s = 5.0;
 /// A transform of somebody else counts as published for so long [s] of real time.
-constexpr double kForeignTransform_s = 5.0;
+constexpr double kForeignTransform_s = 2.0;
+/// Without an estimate for so long [s], what is drawn of now is stale.
+constexpr double kSilence_s = 2.0;
 
 }  // namespace
 
@@ -64,7 +68,6 @@ class OverlayNodelet : public CoreNodelet {
     listen<nav_msgs::Odometry>(config.topics.odometry, &OverlayNodelet::onEstimate);
     listen<Slip>(config.topics.slip, &OverlayNodelet::onSlip);
     listen<ErrorForecast>(config.topics.error_forecast, &OverlayNodelet::onErrorForecast);
-    listen<StopStatus>(config.topics.stop, &OverlayNodelet::onStop);
     listen<sensor_msgs::Imu>(config.topics.imu, &OverlayNodelet::onImu);
     listen<sensor_msgs::JointState>(config.topics.joint_states, &OverlayNodelet::onWheels<sensor_msgs::JointState>);
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &OverlayNodelet::onWheels<nav_msgs::Odometry>);
@@ -101,6 +104,7 @@ class OverlayNodelet : public CoreNodelet {
     truth_publisher_ = publisher<nav_msgs::Path>(config.topics.truth_path, true);
     wheel_publisher_ = publisher<nav_msgs::Path>(config.topics.wheel_path, true);
     markers_publisher_ = publisher<visualization_msgs::MarkerArray>(config.topics.markers, true);
+    figures_publisher_ = publisher<std_msgs::String>(kFiguresTopic);
     joints_publisher_ = publisher<sensor_msgs::JointState>(kModelJointsTopic);
   }
 
@@ -126,6 +130,7 @@ class OverlayNodelet : public CoreNodelet {
   }
 
   void onEstimate(const nav_msgs::Odometry::ConstPtr& message) {
+    estimates_watch_.heard(clocks());
     picture_->add(toEstimateSample(*message));
     sendFrame(*message);
   }
@@ -149,7 +154,6 @@ class OverlayNodelet : public CoreNodelet {
   }
 
   void onErrorForecast(const ErrorForecast::ConstPtr& message) { messages_.error_forecast = message; }
-  void onStop(const StopStatus::ConstPtr& message) { messages_.stop = message; }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
     if (const std::optional<ImuSample> sample = imu_input_->take(*message)) {
@@ -183,7 +187,9 @@ class OverlayNodelet : public CoreNodelet {
 
   void onTick() override {
     const bool due = now() >= published_at_s_ + params_.publish_period_s;
-    if (due && picture_->revision() != published_revision_) {
+    const bool stale = estimates_watch_.isSilent(clocks());
+    if (due && (picture_->revision() != published_revision_ || stale != messages_.stale)) {
+      messages_.stale = stale;
       published_at_s_ = now();
       published_revision_ = picture_->revision();
       publishAll();
@@ -197,6 +203,9 @@ class OverlayNodelet : public CoreNodelet {
     wheel_publisher_.publish(boost::make_shared<nav_msgs::Path>(toPath(picture_->wheels(), map_)));
     markers_publisher_.publish(
         boost::make_shared<visualization_msgs::MarkerArray>(markers_->make(*picture_, messages_)));
+    const auto figures = boost::make_shared<std_msgs::String>();
+    figures->data = picture_->newest() && !messages_.stale ? figuresOf(*picture_) : "";
+    figures_publisher_.publish(figures);
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
@@ -227,6 +236,7 @@ class OverlayNodelet : public CoreNodelet {
   std::optional<DrivePicture> picture_;
   std::optional<OverlayMarkers> markers_;
   OverlayMessages messages_;
+  SilenceWatch estimates_watch_{kSilence_s};
   Initialization::ConstPtr drive_;  ///< where the present drive began
   ModelJoints joints_;
   tf2_ros::TransformBroadcaster tf_;
@@ -236,6 +246,7 @@ class OverlayNodelet : public CoreNodelet {
   SharedPublisher<nav_msgs::Path> truth_publisher_;
   SharedPublisher<nav_msgs::Path> wheel_publisher_;
   SharedPublisher<visualization_msgs::MarkerArray> markers_publisher_;
+  SharedPublisher<std_msgs::String> figures_publisher_;
   SharedPublisher<sensor_msgs::JointState> joints_publisher_;
 };
 

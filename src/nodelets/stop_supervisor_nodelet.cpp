@@ -1,8 +1,9 @@
 /// slipnav/StopSupervisor: stands between the operator's commands and the rover.
 ///
-/// In: nav_state, slip, error_forecast, forecast_progress, cmd_vel_in. Out: cmd_vel, stop, stop_cmd, e_stop.
-/// Services, in its own namespace: stop_now, override, emergency_stop.
+/// In: nav_state, slip, error_forecast, forecast_progress, cmd_vel_in, diagnostics. Out: cmd_vel, stop, stop_cmd,
+/// e_stop. Services, in its own namespace: stop_now, override, emergency_stop.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/Twist.h>
 #include <slipnav/ErrorForecast.h>
 #include <slipnav/NavState.h>
@@ -21,6 +22,7 @@
 
 #include "slipnav/ros/conversions.h"
 #include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/fit_to_drive.h"
 #include "slipnav/ros/forecast_gate.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/silence_watch.h"
@@ -47,6 +49,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     estimates_watch_.emplace(config.stop.estimate_timeout_s);
     commands_watch_.emplace(config.stop.command_timeout_s);
     keeper_.emplace(config.checkpoint, getName());
+    fit_to_drive_.emplace(node().getNamespace());
     supervisor_->restore(keeper_->load());
   }
 
@@ -58,6 +61,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     listen<Slip>(config.topics.slip, &StopSupervisorNodelet::onSlip);
     listen<ErrorForecast>(config.topics.error_forecast, &StopSupervisorNodelet::onForecast);
     listen<std_msgs::Header>(kForecastProgressTopic, &StopSupervisorNodelet::onForecastProgress);
+    listen<diagnostic_msgs::DiagnosticArray>(config.topics.diagnostics, &StopSupervisorNodelet::onDiagnostics);
     serve("stop_now", &StopSupervisorNodelet::onStopNow);
     serve("override", &StopSupervisorNodelet::onOverride);
     serve("emergency_stop", &StopSupervisorNodelet::onEmergencyStop);
@@ -99,8 +103,6 @@ class StopSupervisorNodelet : public CoreNodelet {
     }
   }
 
-  static SilenceWatch::Now clocks() { return {ros::Time::now().toSec(), now()}; }
-
   void onSlip(const Slip::ConstPtr& message) { observer_->add(*message); }
 
   void onNavState(const NavState::ConstPtr& message) {
@@ -125,7 +127,7 @@ class StopSupervisorNodelet : public CoreNodelet {
         now(),
         [this](const RoverObservation& observation) {
           supervisor_->observe(observation);
-          obedience_.observe(supervisor_->told_mps(), observation);
+          watchObedience(observation);
           report();
         },
         [this](const StopForecast& forecast) {
@@ -133,6 +135,26 @@ class StopSupervisorNodelet : public CoreNodelet {
           report();
           announce();
         });
+  }
+
+  /// A rover that drives on must be known of at once.
+  void watchObedience(const RoverObservation& observation) {
+    const bool ignored = obedience_.isIgnored();
+    obedience_.observe(supervisor_->told_mps(), observation);
+    if (ignored != obedience_.isIgnored()) {
+      reportNow();
+    }
+  }
+
+  void onDiagnostics(const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
+    fit_to_drive_->take(*message, now());
+  }
+
+  void addDiagnoses(diagnostic_updater::Updater& updater) override {
+    updater.add(fit_to_drive_->name(), [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      const FitToDrive::Verdict verdict = fit_to_drive_->verdict(now());
+      status.summary(static_cast<unsigned char>(verdict.level), verdict.message);
+    });
   }
 
   /// One command in, one command out: a silent operator is never spoken for.
@@ -335,6 +357,7 @@ class StopSupervisorNodelet : public CoreNodelet {
   TopicNames topics_;
   std::optional<StopSupervisor> supervisor_;
   std::optional<StopLatchKeeper> keeper_;
+  std::optional<FitToDrive> fit_to_drive_;
   std::optional<RoverObserver> observer_;
   ObedienceWatch obedience_;
   ForecastGate gate_;

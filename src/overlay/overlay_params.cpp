@@ -11,8 +11,6 @@ void OverlayParams::visit(ParameterVisitor& v) {
   v.number("slip_full_scale", slip_full_scale, {0.001, 1.0}, "slip ratio that has the full colour");
   v.number("text_height_m", text_height_m, {0.01, 100.0}, "size of all text [m]");
   v.text("frame", frame, "frame_id of what floats beside the rover: its place, the directions of the map");
-  v.number("panel_east_m", panel_east_m, {-1e3, 1e3}, "upper left corner of the panel, from the rover [m]");
-  v.number("panel_north_m", panel_north_m, {-1e3, 1e3}, "likewise [m]");
   v.number("legend_east_m", legend_east_m, {-1e3, 1e3}, "upper left corner of the legend, from the rover [m]");
   v.number("legend_north_m", legend_north_m, {-1e3, 1e3}, "likewise [m]");
 }

@@ -101,7 +101,8 @@ void noteTruthLeftOut(BagEvaluation& evaluation) {
 /// Feeds a recording to a run in the order of the stamps.
 void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluation& evaluation) {
   HealthMonitor health(reader.config().navigation().filter);  // of what does not reach the pipeline
-  SampleMerger merger(reader.config().filter.max_wait_s);
+  const Config& config = reader.config();
+  SampleMerger merger(config.filter.max_wait_s, config.gnss.always() ? kFixJump : JumpFilter<PositionFix>::kJump);
   TruthInContinuousTime truth;
   const SampleMerger::Sink pass = [&run](const Sample& sample) {
     std::visit([&run](const auto& s) { run.push(s); }, sample);

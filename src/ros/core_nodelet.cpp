@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "slipnav/ros/extrinsics.h"
+#include "slipnav/ros/fit_to_drive.h"
 #include "slipnav/ros/internal_topics.h"
 #include "slipnav/ros/parameters.h"
 #include "slipnav/ros/topic_graph.h"
@@ -11,7 +12,7 @@
 namespace slipnav {
 namespace {
 
-constexpr double kDiagnosticsInterval_s = 1.0;
+constexpr double kDiagnosticsInterval_s = 0.5;
 constexpr double kReminderInterval_s = 5.0;
 constexpr std::size_t kMaxWaiting = 200000;
 
@@ -35,7 +36,7 @@ void CoreNodelet::onInit() {
     // The updater has one name for its topic; only its own node handle can call it something else.
     const ros::NodeHandle renamed(node_, "", {{"/diagnostics", config_.topics.diagnostics}});
     updater_ = std::make_unique<diagnostic_updater::Updater>(renamed, private_node_, getName());
-    updater_->setHardwareID("none");
+    updater_->setHardwareID(kHardwareId);
     updater_->add(getName(), [this](diagnostic_updater::DiagnosticStatusWrapper& status) {
       diagnose(status);
       if (tuning_) {
@@ -43,6 +44,7 @@ void CoreNodelet::onInit() {
       }
       diagnoseClock(status);
     });
+    addDiagnoses(*updater_);
     advertise(config_);
     ticks_ = thread_->repeat(tickInterval_s(), [this] { tick(); });
     diagnostics_ = thread_->repeat(kDiagnosticsInterval_s, [this] { guarded([this] { updater_->force_update(); }); });

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "slipnav/ros/fit_to_drive.h"
+
 namespace slipnav {
 namespace {
 
@@ -58,6 +60,8 @@ void OperatorView::take(const Slip& message, double now_s) {
 
 void OperatorView::take(const Initialization& message, double now_s) { start_ = {message, now_s}; }
 
+void OperatorView::take(const std_msgs::String& figures, double now_s) { figures_ = {figures, now_s}; }
+
 void OperatorView::take(const diagnostic_msgs::DiagnosticArray& message, double now_s) {
   for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
     statuses_[status.name] = {status, now_s};
@@ -89,7 +93,8 @@ void OperatorView::addForecast(double now_s, OperatorPicture& picture) const {
   for (const auto& [time_s, bound_m] : bounds_) {
     picture.history.emplace_back(now_s - time_s, bound_m);
   }
-  if (isFresh(forecast_, now_s, kForecastLifetime_s) && !forecast_->message.horizontal_bound_m.empty()) {
+  if (!picture.isStale() && isFresh(forecast_, now_s, kForecastLifetime_s) &&
+      !forecast_->message.horizontal_bound_m.empty()) {
     picture.bound_m = forecast_->message.horizontal_bound_m.front();
   }
   picture.threshold_m = forecast_ ? forecast_->message.threshold_m : 0.0;
@@ -97,15 +102,19 @@ void OperatorView::addForecast(double now_s, OperatorPicture& picture) const {
 
 void OperatorView::addAlarms(double now_s, OperatorPicture& picture) const {
   for (const auto& [name, heard] : statuses_) {
-    const std::string who = name.substr(0, name.find(':'));
+    const std::string who = name.substr(name.rfind('/') + 1);
+    if (who == kFitToDrive) {
+      continue;  // says the same once more
+    }
     if (now_s - heard.time_s > kStatusLifetime_s) {
       picture.alarms.push_back({diagnostic_msgs::DiagnosticStatus::STALE, who + ": says nothing any more"});
     } else if (heard.message.level != diagnostic_msgs::DiagnosticStatus::OK) {
       picture.alarms.push_back({heard.message.level, who + ": " + heard.message.message});
     }
   }
-  std::stable_sort(picture.alarms.begin(), picture.alarms.end(),
-                   [](const OperatorAlarm& a, const OperatorAlarm& b) { return a.level > b.level; });
+  std::stable_sort(picture.alarms.begin(), picture.alarms.end(), [](const OperatorAlarm& a, const OperatorAlarm& b) {
+    return severityOf(a.level) > severityOf(b.level);
+  });
 }
 
 OperatorPicture OperatorView::picture(double now_s) const {
@@ -127,6 +136,9 @@ OperatorPicture OperatorView::picture(double now_s) const {
     const double slip = slip_->message.mean_ratio;
     picture.slip = std::isfinite(slip) ? formatted("%.0f %%", 100.0 * slip) : "–";
     picture.since_stop = formatted("%.1f m", since_stop_m_);
+  }
+  if (isFresh(figures_, now_s, kLifetime_s)) {
+    picture.figures = figures_->message.data;
   }
   addForecast(now_s, picture);
   addAlarms(now_s, picture);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "marker_sketch.h"
-#include "overlay_panel.h"
+#include "overlay_legend.h"
 #include "slipnav/ros/conversions.h"
 
 namespace slipnav {
@@ -18,6 +18,7 @@ constexpr double kSlipWidth_m = 0.6;
 constexpr double kStopDiameter_m = 0.9;
 constexpr float kFanAlpha = 0.7F;
 constexpr double kForecastLifetime_s = 5.0;
+constexpr double kLifetimeOfNow_s = 3.0;  // by the clock of ROS; some periods of publishing
 
 // Heights against the track that keep apart, seen from above, what lies on the same spot [m].
 constexpr double kFanHeight_m = -0.10;
@@ -66,7 +67,7 @@ std::string stopWords(const LoggedStop& stop) {
 }
 
 void drawStops(const DrivePicture& picture, const OverlayParams& params, MarkerSketch& sketch) {
-  constexpr double kTextRatio = 0.75;  // smaller than panel and legend
+  constexpr double kTextRatio = 0.75;  // smaller than the legend
   for (const LoggedStop& stop : picture.stops().stops()) {
     sketch.disc("stops", stop.number, raised(stop.position_enu_m, kStopHeight_m), kStopDiameter_m,
                 withAlpha(kStopColour, 0.8F));
@@ -96,15 +97,21 @@ void drawFanSurface(const std::vector<FanSection>& sections, double threshold_m,
 }
 
 /// Where the bound is forecast to pass the threshold.
-void drawStopAhead(const Course& course, const ErrorForecast& forecast, const OverlayParams& params,
-                   MarkerSketch& sketch) {
+void drawStopAhead(const Course& course, const ErrorForecast& forecast, MarkerSketch& sketch) {
   if (!std::isfinite(forecast.time_to_stop_s)) {
     return;
   }
   const std::vector<FanSection> at = forecastFan(course, {forecast.time_to_stop_s}, {forecast.threshold_m});
   sketch.line("stop ahead", 0, {at[0].left_enu_m, at[0].right_enu_m}, 2.0 * kThinLine_m, kLimitColour);
-  sketch.text("stop ahead", 1, raised(at[0].left_enu_m, kLabelHeight_m), params.text_height_m, kTextColour,
-              "bound " + formatted(forecast.threshold_m, 1) + " m");
+}
+
+/// What is of now goes by itself when this nodelet has died.
+void limitLifetime(std::vector<Marker>& markers) {
+  for (Marker& marker : markers) {
+    const bool is_of_now = marker.ns == "forecast" || marker.ns == "horizon" || marker.ns == "stop ahead" ||
+                           marker.ns == "ellipse" || marker.ns == "error";
+    marker.lifetime = ros::Duration(is_of_now ? kLifetimeOfNow_s : 0.0);
+  }
 }
 
 bool isCurrent(const ErrorForecast* forecast, const EstimateSample& newest) {
@@ -113,8 +120,7 @@ bool isCurrent(const ErrorForecast* forecast, const EstimateSample& newest) {
          std::abs(toSeconds(newest.stamp - toNanoseconds(forecast->header.stamp))) < kForecastLifetime_s;
 }
 
-void drawForecast(const DrivePicture& picture, const ErrorForecast* forecast, const OverlayParams& params,
-                  MarkerSketch& sketch) {
+void drawForecast(const DrivePicture& picture, const ErrorForecast* forecast, MarkerSketch& sketch) {
   if (!isCurrent(forecast, *picture.newest()) || !picture.course().known()) {
     return;
   }
@@ -126,7 +132,7 @@ void drawForecast(const DrivePicture& picture, const ErrorForecast* forecast, co
   const FanSection& horizon = fan.back();
   sketch.line("horizon", 0, raised(circle(horizon.centre_enu_m, horizon.bound_m), kFanHeight_m), kThinLine_m,
               boundColour(horizon.bound_m / forecast->threshold_m));
-  drawStopAhead(course, *forecast, params, sketch);
+  drawStopAhead(course, *forecast, sketch);
 }
 
 }  // namespace
@@ -157,13 +163,15 @@ visualization_msgs::MarkerArray OverlayMarkers::make(const DrivePicture& picture
   MarkerSketch beside_rover(params_.frame, stamp, true);
   if (picture.newest()) {
     drawSlip(picture, params_, sketch);
-    drawForecast(picture, messages.error_forecast.get(), params_, sketch);
     drawStops(picture, params_, sketch);
-    drawError(picture, sketch);
-    drawPanel(picture, messages, params_, beside_rover);
+    if (!messages.stale) {
+      drawForecast(picture, messages.error_forecast.get(), sketch);
+      drawError(picture, sketch);
+    }
     drawLegend(params_, beside_rover);
   }
   visualization_msgs::MarkerArray array = sketch.markers();
+  limitLifetime(array.markers);
   array.markers.insert(array.markers.end(), beside_rover.markers().markers.begin(),
                        beside_rover.markers().markers.end());
   std::set<Key> shown;

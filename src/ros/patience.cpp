@@ -1,5 +1,7 @@
 #include "slipnav/ros/patience.h"
 
+#include <algorithm>
+
 namespace slipnav {
 
 void TrustedStamp::push(Nanoseconds stamp, double now_s) {
@@ -33,11 +35,14 @@ void StepGate::push(const InsStep& step, double now_s) {
   }
 }
 
-void StepGate::release(Nanoseconds wheels_known_until, double now_s, const std::function<void(const InsStep&)>& sink) {
+void StepGate::release(Nanoseconds wheels_known_until, double now_s, const std::function<void(const InsStep&)>& sink,
+                       Nanoseconds others_decided_at) {
   const Nanoseconds trusted = trusted_.at(now_s);
-  const auto may_go = [this, wheels_known_until, trusted](const InsStep& step) {
+  const Nanoseconds decided_at =
+      max_wait_s_ ? std::min(others_decided_at, wheels_known_until + fromSeconds(*max_wait_s_)) : others_decided_at;
+  const auto may_go = [decided_at, trusted](const InsStep& step) {
     const Nanoseconds end = step.state.stamp;
-    return !max_wait_s_ || end < wheels_known_until + fromSeconds(*max_wait_s_) || end <= trusted;
+    return end < decided_at || end <= trusted;
   };
   while (!held_.empty() && may_go(held_.front())) {
     sink(held_.front());

@@ -17,14 +17,17 @@ void send(const SharedPublisher<Message>& publisher, Message message) {
 
 }  // namespace
 
-SensorPublisher::SensorPublisher(ros::NodeHandle& node, const Config& config)
+SensorPublisher::SensorPublisher(ros::NodeHandle& node, const Config& config, Clock clock)
     : sensors_(config),
-      clock_(SharedPublisher<rosgraph_msgs::Clock>(node, "/clock")),
       imu_(SharedPublisher<sensor_msgs::Imu>(node, config.topics.imu)),
       joints_(SharedPublisher<sensor_msgs::JointState>(node, config.topics.joint_states)),
       gps_(SharedPublisher<sensor_msgs::NavSatFix>(node, config.topics.gps_fix)),
       truth_fix_(SharedPublisher<sensor_msgs::NavSatFix>(node, config.topics.truth_fix)),
-      truth_odometry_(SharedPublisher<nav_msgs::Odometry>(node, config.topics.truth_odometry)) {}
+      truth_odometry_(SharedPublisher<nav_msgs::Odometry>(node, config.topics.truth_odometry)) {
+  if (clock == Clock::kSimulated) {
+    clock_ = SharedPublisher<rosgraph_msgs::Clock>(node, "/clock");
+  }
+}
 
 void SensorPublisher::publish(const sim::Measurements& measurements, const sim::TruthState& truth) {
   publishClock(truth.stamp);
@@ -46,13 +49,13 @@ void SensorPublisher::publish(const sim::Measurements& measurements, const sim::
 
 void SensorPublisher::publishClock(Nanoseconds stamp) {
   const ros::SteadyTime now = ros::SteadyTime::now();
-  if (now - told_clock_ < kClockInterval) {
+  if (!clock_ || now - told_clock_ < kClockInterval) {
     return;
   }
   told_clock_ = now;
   rosgraph_msgs::Clock clock;
   clock.clock = toRosTime(stamp);
-  send(clock_, clock);
+  send(*clock_, clock);
 }
 
 }  // namespace slipnav

@@ -75,6 +75,7 @@ StopPanel::StopPanel(QWidget* parent)
   listen<ErrorForecast>(topics.error_forecast);
   listen<Slip>(topics.slip);
   listen<Initialization>(kInitializationTopic);
+  listen<std_msgs::String>(kFiguresTopic);
   listen<diagnostic_msgs::DiagnosticArray>(topics.diagnostics);
   timer_ = new QTimer(this);
   connect(timer_, &QTimer::timeout, this, [this] { refresh(); });
@@ -142,14 +143,14 @@ void StopPanel::buildButtons() {
   connect(threshold_, &QDoubleSpinBox::editingFinished, this, [this] { onThreshold(); });
   answer_ = label(this, "answer");
   auto* grid = new QGridLayout;
-  grid->addWidget(stop_now_, 0, 0);
-  grid->addWidget(override_, 0, 1);
-  grid->addWidget(initialise_, 1, 0);
-  grid->addWidget(checkpoint_, 1, 1);
+  grid->addWidget(stop_now_, 0, 0, 1, 2);
+  grid->addWidget(override_, 0, 2, 1, 2);
+  grid->addWidget(initialise_, 1, 0, 1, 2);
+  grid->addWidget(checkpoint_, 1, 2, 1, 2);
   grid->addWidget(new QLabel("mode", this), 2, 0);
   grid->addWidget(mode_, 2, 1);
-  grid->addWidget(new QLabel("stop at", this), 3, 0);
-  grid->addWidget(threshold_, 3, 1);
+  grid->addWidget(new QLabel("stop at", this), 2, 2);
+  grid->addWidget(threshold_, 2, 3);
   auto* column = qobject_cast<QVBoxLayout*>(layout());
   column->insertWidget(column->indexOf(chart_), emergency_);  // seen on the smallest screen
   column->addLayout(grid);
@@ -195,7 +196,8 @@ void StopPanel::showPicture(const OperatorPicture& picture) {
   reason_->setText(QString::fromStdString(picture.reason));
   const QString slip = picture.slip.empty() ? "–" : QString::fromStdString(picture.slip);
   const QString way = picture.since_stop.empty() ? "–" : QString::fromStdString(picture.since_stop);
-  numbers_->setText("slip " + slip + "    since the stop " + way);
+  const QString figures = QString::fromStdString(picture.figures);
+  numbers_->setText("slip " + slip + "    since the stop " + way + (figures.isEmpty() ? "" : "\n" + figures));
   chart_->display(picture);
   QStringList alarms;
   for (const OperatorAlarm& alarm : picture.alarms) {

@@ -106,6 +106,9 @@ void GnssParams::visit(ParameterVisitor& v) {
   v.number("rate_hz", rate_hz, {0.1, 500.0}, "fixes per second");
   v.number("horizontal_noise_m", horizontal_noise_m, kNotNegative, "1 sigma, each of north and east");
   v.number("vertical_noise_m", vertical_noise_m, kNotNegative, "1 sigma");
+  v.number("correlation_s", correlation_s, {0.0, 3600.0}, "over which errors fall to 1/e; 0: each is independent");
+  v.number("outlier_part", outlier_part, {0.0, 1.0}, "of the fixes, that stand off without saying so");
+  v.number("outlier_m", outlier_m, kNotNegative, "how far they do, horizontally");
   v.number("antenna_x_m", antenna_x_m, kLever_m, "antenna seen from base_link, forward");
   v.number("antenna_y_m", antenna_y_m, kLever_m, "antenna seen from base_link, right");
   v.number("antenna_z_m", antenna_z_m, kLever_m, "antenna seen from base_link, down");

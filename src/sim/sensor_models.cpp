@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "slipnav/math/rotation.h"
 
@@ -130,14 +131,29 @@ WheelSample EncoderModel::measure(const PerWheel& angle_rad, Nanoseconds stamp) 
 }
 
 GnssModel::GnssModel(const GnssParams& params, const LocalFrame& frame, std::uint64_t seed, std::string_view purpose)
-    : params_(params), frame_(frame), stream_(seed, purpose) {}
+    : params_(params), frame_(frame), stream_(seed, purpose), outliers_(seed, std::string(purpose) + " outliers") {}
+
+/// East, north, up [m].
+Vector3 GnssModel::error(Nanoseconds stamp) {
+  const double persistence =
+      params_.correlation_s > 0.0 ? std::exp(-toSeconds(stamp - newest_) / params_.correlation_s) : 0.0;
+  newest_ = stamp;
+  for (int axis = 0; axis < 3; ++axis) {
+    normal_[axis] = persistence * normal_[axis] + std::sqrt(1.0 - persistence * persistence) * stream_.normal();
+  }
+  Vector3 error =
+      normal_.cwiseProduct(Vector3(params_.horizontal_noise_m, params_.horizontal_noise_m, params_.vertical_noise_m));
+  if (params_.outlier_part > 0.0 && outliers_.uniform() < params_.outlier_part) {
+    const double direction_rad = 2.0 * kPi * outliers_.uniform();
+    error += params_.outlier_m * Vector3(std::cos(direction_rad), std::sin(direction_rad), 0.0);
+  }
+  return error;
+}
 
 GnssFix GnssModel::measure(const Vector3& position_enu_m, const Matrix3& C_b_to_enu, Nanoseconds stamp) {
   const Vector3 antenna_b(params_.antenna_x_m, params_.antenna_y_m, params_.antenna_z_m);
   Vector3 antenna_enu = position_enu_m + C_b_to_enu * antenna_b;
-  antenna_enu.x() += params_.horizontal_noise_m * stream_.normal();
-  antenna_enu.y() += params_.horizontal_noise_m * stream_.normal();
-  antenna_enu.z() += params_.vertical_noise_m * stream_.normal();
+  antenna_enu += error(stamp);
   const Geodetic position = frame_.toGeodetic(antenna_enu);
 
   GnssFix fix;

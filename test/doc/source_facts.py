@@ -7,11 +7,11 @@ import re
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 # Files in examples that a user makes, or that a run writes.
-FILES_OF_USERS = {"my_rover.yaml", "RTKLIB.pos", "report.html", "tables.md", "default.yaml"}
+FILES_OF_USERS = {"my_rover.yaml", "RTKLIB.pos", "report.html", "tables.md", "default.yaml", "init_params.yaml"}
 
 # Nodelets whose publishers live in a class of their own.
-PUBLISHERS = {"estimate_publisher.cpp": "Filter", "sensor_publisher.cpp": "Simulator",
-              "stop_outputs.cpp": "StopSupervisor"}
+PUBLISHERS = {"estimate_publisher.cpp": ["Filter"], "sensor_publisher.cpp": ["Simulator", "SimulatedRover"],
+              "stop_outputs.cpp": ["StopSupervisor"]}
 # diagnostic_updater publishes it for every nodelet.
 DIAGNOSTICS = ("diagnostics", "diagnostic_msgs/DiagnosticArray")
 PLACEHOLDER = r"%[-.\d]*l?[a-zA-Z]"
@@ -54,8 +54,9 @@ def nodelet_sources():
     for path in glob.glob(os.path.join(ROOT, "src/nodelets/*_nodelet.cpp")):
         text = read(path)
         yield re.search(r"^/// slipnav/(\w+):", text).group(1), text
-    for name, nodelet in PUBLISHERS.items():
-        yield nodelet, read(f"src/ros/{name}")
+    for name, nodelets_of_file in PUBLISHERS.items():
+        for nodelet in nodelets_of_file:
+            yield nodelet, read(f"src/ros/{name}")
 
 
 def topic_names():
@@ -83,7 +84,8 @@ def topics():
             if entry[0] != full_type(kind):
                 raise AssertionError(f"{name} has two types")
             entry[2 if call == "listen" else 1].add(nodelet)
-    found[DIAGNOSTICS[0]] = (DIAGNOSTICS[1], {"all"}, set())
+    found[DIAGNOSTICS[0]] = (DIAGNOSTICS[1], {"all"}, found[DIAGNOSTICS[0]][2])
+    found["/clock"][1].discard("SimulatedRover")  # which goes by the time that there is
     found[names["kTuningTopic"]] = ("dynamic_reconfigure/Config", tuners(), {"all"})
     return found
 
@@ -155,6 +157,10 @@ def diagnostic_texts():
             texts.update(literals(statement)[:1])
     for function in ("problemOf", "dangerOf"):
         texts.update(literals(body_of(function, read("src/nodelets/stop_supervisor_nodelet.cpp"))))
+    texts.update(literals(body_of("failureOfImu", read("src/nodelets/ins_nodelet.cpp"))))
+    texts.update(literals(body_of("troubleOf", read("src/nodelets/forecast_nodelet.cpp"))))
+    texts.update(literals(body_of("problem", read("include/slipnav/ros/sensor_watch.h"))))
+    texts.update(literals(body_of("FitToDrive::verdict", read("src/ros/fit_to_drive.cpp"))))
     for function in ("whyNoEmergencyStop", "whyNoStop"):
         texts.update(literals(body_of(function, read("src/stop/stop_reach.cpp"))))
     health = read("src/navigator/health.cpp")
@@ -171,6 +177,7 @@ def diagnostic_texts():
 def all_literals():
     """All string literals of the code, adjacent ones joined."""
     paths = glob.glob(os.path.join(ROOT, "src/**/*.cpp"), recursive=True)
+    paths += glob.glob(os.path.join(ROOT, "include/**/*.h"), recursive=True)
     return {text for path in paths for text in literals(read(path))}
 
 

@@ -34,6 +34,9 @@ TEST(LaunchFiles, AreUnderstood) {
   EXPECT_EQ(
       roslaunchStatus({"simulate.launch", "simulator:=standalone slipnav/Simulator", "endurance:=1", "out:=somewhere"}),
       0);
+  EXPECT_EQ(roslaunchStatus({"simulate.launch", "operator:=true", "terrain:=paved", "stop_mode:=advise",
+                             "options:=--set gnss.use=always"}),
+            0);
   EXPECT_EQ(roslaunchStatus({"load.launch", "bag:=drive.bag", "seconds:=5", "out:=table.txt"}), 0);
 }
 
@@ -43,6 +46,7 @@ TEST(LaunchFiles, AWrongConfigurationIsAnError) {
   EXPECT_NE(roslaunchStatus({"simulate.launch", "terrain:=sea"}), 0);
   EXPECT_NE(roslaunchStatus({"rover.launch", "topics:=imu/dota=imu"}), 0);
   EXPECT_NE(roslaunchStatus({"rover.launch", "stop_mode:=sometimes"}), 0);
+  EXPECT_NE(roslaunchStatus({"rover.launch", "config:=pathfinder", "init_params:=/nowhere/init_params.yaml"}), 0);
 }
 
 }  // namespace

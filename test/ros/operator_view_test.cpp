@@ -103,6 +103,14 @@ TEST_F(OperatorViewTest, TheWorstAlarmComesFirstAndSilenceIsOne) {
   EXPECT_EQ(view_.picture(9.0).alarms[1].words, "ins: says nothing any more");
 }
 
+TEST_F(OperatorViewTest, FiguresOfTheDriveGoWithTheirSource) {
+  std_msgs::String figures;
+  figures.data = "distance 3.0 m";
+  view_.take(figures, 0.0);
+  EXPECT_EQ(view_.picture(1.0).figures, "distance 3.0 m");
+  EXPECT_EQ(view_.picture(9.0).figures, "");
+}
+
 TEST_F(OperatorViewTest, TheWaySinceTheStopBeginsAtStandstill) {
   Slip slip;
   slip.forward_speed_mps = -1.0;

@@ -49,8 +49,9 @@ TEST_F(ReplayEquality, AtTwentyTimesRealTime) {
                                                 {"forecast: /forecast", true},
                                                 {"initializer: /initializer", true},
                                                 {"ins: /ins", true},
+                                                {"stop_supervisor: /fit to drive", true},
                                                 {"stop_supervisor: /stop_supervisor", true}};
-  for (int i = 0; i < 50 && well != everyone; ++i) {  // they come once a second
+  for (int i = 0; i < 50 && well != everyone; ++i) {  // they come twice a second
     ros::spinOnce();
     ros::WallDuration(0.1).sleep();
   }

@@ -200,7 +200,7 @@ TEST_F(RvizOverlay, ShowsEveryPartOfTheOverlay) {
       }
     }
   }
-  for (const char* name : {"slip", "ellipse", "error", "stops", "stop labels", "panel", "legend"}) {
+  for (const char* name : {"slip", "ellipse", "error", "stops", "stop labels", "legend"}) {
     EXPECT_EQ(names.count(name), 1U) << name;
   }
 }

@@ -15,6 +15,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMouseEvent>
+#include <QPalette>
 #include <QPushButton>
 
 #include <cstdlib>
@@ -136,7 +137,26 @@ class RvizPanel : public ::testing::Test {
     EXPECT_TRUE(waitUntil([&] { return text("state") == state; })) << state << " " << text("state").toStdString();
     if (const char* folder = std::getenv("SLIPNAV_PICTURES")) {
       panel_.grab().save(QString("%1/panel_%2.png").arg(folder, picture));
+      const QPalette light = QApplication::palette();
+      QApplication::setPalette(darkPalette());
+      QApplication::processEvents();
+      panel_.grab().save(QString("%1/panel_%2_dark.png").arg(folder, picture));
+      QApplication::setPalette(light);
     }
+  }
+
+  static QPalette darkPalette() {
+    QPalette palette;
+    for (const QPalette::ColorRole role : {QPalette::Window, QPalette::Button, QPalette::ToolTipBase}) {
+      palette.setColor(role, QColor(53, 53, 53));
+    }
+    for (const QPalette::ColorRole role :
+         {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::ToolTipText}) {
+      palette.setColor(role, Qt::white);
+      palette.setColor(QPalette::Disabled, role, QColor(127, 127, 127));
+    }
+    palette.setColor(QPalette::Base, QColor(35, 35, 35));
+    return palette;
   }
 
   FakeNodelets nodelets_;
@@ -254,6 +274,26 @@ TEST_F(RvizPanel, AnEmergencyStopIsOneClickAndItsEndTwo) {
   EXPECT_EQ(nodelets_.calls().size(), before) << "one click releases nothing";
   click(button("emergency_stop"));
   expectCall("stop_supervisor/emergency_stop false");
+}
+
+/// Of 800 rows, window and status bar of rviz leave so many.
+TEST_F(RvizPanel, FitsASmallScreenWithAllItsButtons) {
+  diagnostic_msgs::DiagnosticArray array;
+  array.status.resize(6);
+  for (std::size_t i = 0; i < array.status.size(); ++i) {
+    array.status[i].name = "manager: /nodelet" + std::to_string(i);
+    array.status[i].level = diagnostic_msgs::DiagnosticStatus::WARN;
+    array.status[i].message = "a message that is about as long as messages are, or longer";
+  }
+  diagnostics_.publish(array);
+  ASSERT_TRUE(waitUntil([this] { return text("alarms").count('\n') >= 3; }));
+  panel_.resize(300, 660);
+  QApplication::processEvents();
+  EXPECT_LE(panel_.height(), 660);
+  for (const char* name : {"stop_now", "override", "initialise", "checkpoint", "emergency_stop"}) {
+    const QPoint corner = button(name)->mapTo(&panel_, button(name)->rect().bottomRight());
+    EXPECT_TRUE(panel_.rect().contains(corner)) << name << " " << corner.x() << " " << corner.y();
+  }
 }
 
 TEST_F(RvizPanel, IsReachedByTheKeyboard) {

@@ -135,7 +135,7 @@ TEST_F(SupervisorTest, NothingIsEmittedForAnOperatorWhoIsSilent) {
   std::string diagnosis;
   listen<diagnostic_msgs::DiagnosticArray>("health", [&diagnosis](const auto& message) {
     for (const auto& status : message->status) {
-      diagnosis = status.name.find("/silent/") != std::string::npos ? status.message : diagnosis;
+      diagnosis = status.name.find("/silent/supervisor") != std::string::npos ? status.message : diagnosis;
     }
   });
   stopTheRover();

@@ -40,6 +40,19 @@ TEST(ImuScreen, RegularSamplesAreAccepted) {
   EXPECT_EQ(screen.newestStamp(), sampleAt(0.021).stamp);
 }
 
+TEST(ImuScreen, ASensorThatSaysTheSameOnAllAxesIsFrozenUntilOneMoves) {
+  ImuScreen screen(params());
+  for (int i = 0; i <= params().stuck_samples; ++i) {
+    EXPECT_FALSE(screen.isFrozen()) << i;
+    EXPECT_EQ(screen.check(sampleAt(0.02 * i)).verdict, ImuVerdict::kAccepted);
+  }
+  EXPECT_TRUE(screen.isFrozen());
+  ImuSample moved = sampleAt(1.0);
+  moved.omega_ib_b.z() = 1e-6;
+  screen.check(moved);
+  EXPECT_FALSE(screen.isFrozen());
+}
+
 TEST(ImuScreen, TheFirstSampleHasNoInterval) {
   ImuScreen screen(params());
   EXPECT_EQ(screen.newestStamp(), 0);

@@ -97,7 +97,7 @@ TEST_F(WheelDecoderTest, RepeatedPositionsGiveNoRate) {
 
 TEST_F(WheelDecoderTest, NamesWhatIsWrong) {
   EXPECT_FALSE(decode(1, {"left", "rihgt"}, {}, {1.0, 1.0}));
-  EXPECT_EQ(decoder_.problem(), "has no joint 'right'");
+  EXPECT_EQ(decoder_.problem(), "has no joint 'right', but 'left', 'rihgt'");
   EXPECT_FALSE(decode(1, {"left", "right"}, {}, {1.0}));
   EXPECT_EQ(decoder_.problem(), "has 1 values of velocity for 2 joints");
   EXPECT_FALSE(decode(1, {}, {}, {1.0}));
@@ -219,7 +219,7 @@ TEST_F(WheelDecoderTest, SaysThatNoMessageHasTheWheels) {
     decode(1 + i, {"shoulder", "elbow"}, {}, {1.0, 2.0});
     problem = decoder_.problem();
   }
-  EXPECT_EQ(problem, "has no joint 'left'");
+  EXPECT_EQ(problem, "has no joint 'left', but 'shoulder', 'elbow'");
 }
 
 }  // namespace

@@ -23,15 +23,6 @@ TEST(HealthMonitor, NamesWhatIsWrongWithTheImu) {
   EXPECT_EQ(stuck.count, 2U);
 }
 
-TEST(HealthMonitor, WhatIsLongAgoIsNotActive) {
-  HealthMonitor health(setup());
-  health.note("something", 10 * kSecond);
-  health.note("something else", 14 * kSecond);
-  EXPECT_EQ(health.active(14 * kSecond), "something, something else");
-  EXPECT_EQ(health.active(16 * kSecond), "something else");
-  EXPECT_EQ(health.active(30 * kSecond), "");
-}
-
 TEST(HealthMonitor, SilentAndContradictingWheelsAreNoticed) {
   const Config config = driveConfig(6.0);
   const RecordedDrive drive = recordDrive(config);
@@ -46,7 +37,7 @@ TEST(HealthMonitor, SilentAndContradictingWheelsAreNoticed) {
       navigator.push(sample.imu, ignore);
     } else if (sample.stamp() < silent_from) {
       sample.wheels.circumferential_mps[2] = 0.0;
-      health.noteWheels(sample.stamp(), navigator.push(sample.wheels, ignore));
+      health.noteWheels(sample.wheels, navigator.push(sample.wheels, ignore));
     }
     health.noteFilter(navigator.filter());
   }

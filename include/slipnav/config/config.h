@@ -46,6 +46,7 @@ struct Config {
   NonholonomicParams nonholonomic;
   ZeroMotionParams zero_motion;
   StationaryParams stationary;
+  FixParams gnss;
   FilterParams filter;
   InitializationParams initialization;
   CheckpointParams checkpoint;

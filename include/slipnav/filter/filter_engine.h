@@ -7,11 +7,13 @@
 /// Where wheel samples are further apart than usual, one may still be on its way. What is computed therefore depends on
 /// the stamps, not on the order of arrival.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
 
 #include "slipnav/container/ring_queue.h"
+#include "slipnav/filter/cadence.h"
 #include "slipnav/filter/error_dynamics.h"
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
@@ -50,7 +52,7 @@ class FilterEngine {
   void push(const InsStep& step);
   /// Takes a wheel sample; false when it is not finite, repeated, or lies before what has been processed.
   bool push(const WheelMotion& wheels);
-  /// Takes a satellite position or velocity, used while initialising; false as above.
+  /// Takes a satellite position or velocity; false as above.
   bool push(const AntennaFix& fix);
 
   /// Puts the state that was processed last to another place. What is known of velocity in body axes, tilt, biases and
@@ -61,11 +63,16 @@ class FilterEngine {
   /// nothing has been processed yet.
   std::optional<Correction> reissue();
 
-  /// Says that no wheel sample up to `stamp` is still to come.
-  void assumeCompleteUpTo(Nanoseconds stamp) { wheels_.assumeCompleteUpTo(stamp); }
+  /// Says that no wheel sample and no fix up to `stamp` is still to come.
+  void assumeCompleteUpTo(Nanoseconds stamp) {
+    wheels_.assumeCompleteUpTo(stamp);
+    fixes_complete_until_ = std::max(fixes_complete_until_, stamp);
+  }
 
   /// The stamp up to which wheel samples are known without a hole between them.
   Nanoseconds wheelsKnownUntil() const { return wheels_.knownUntil(); }
+  /// Likewise for fixes, which are waited for with `gnss.use: always` alone; without, they are always known.
+  Nanoseconds fixesKnownUntil() const;
 
   /// Processes steps in order until none is certain, or until a measurement corrects the state. Then the correction has
   /// to reach the mechanisation, whose new steps come back by push().
@@ -104,6 +111,7 @@ class FilterEngine {
   void loosen(const Measurement& forward, Nanoseconds stamp, double jump);
   void noteWheels(const WheelMotion& wheels, double interval_s);
   bool applyFixes(const InsStep& step);
+  void addFix(const PositionFix& fix, MeasurementSet& set) const;
   PlanarMotion soundMotion(const WheelMotion& wheels) const;
   bool update(MeasurementSet set);
   void take(const ErrorVector& error);
@@ -137,6 +145,9 @@ class FilterEngine {
   RingQueue<InsStep> steps_;
   WheelQueue wheels_;
   RingQueue<AntennaFix> fixes_;  ///< not yet applied, by stamp
+  Cadence fix_cadence_;          ///< of those that have been worked off
+  Nanoseconds fixes_complete_until_ = 0;
+  Nanoseconds used_fix_ = 0;  ///< stamp of the newest one that passed, 0: none
   SlippingSpeed slipping_speed_;
   double last_forward_mps_ = 0.0;    ///< predicted, mean over the wheel interval before
   double way_since_wheels_m_ = 0.0;  ///< of the surface, in the last wheel interval

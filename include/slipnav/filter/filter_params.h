@@ -7,6 +7,7 @@
 #include "slipnav/config/parameter_visitor.h"
 #include "slipnav/filter/error_dynamics.h"
 #include "slipnav/filter/noise_scales.h"
+#include "slipnav/measurement/gnss_fix.h"
 #include "slipnav/measurement/nonholonomic.h"
 #include "slipnav/measurement/wheel_monitor.h"
 #include "slipnav/measurement/wheel_odometry.h"
@@ -43,6 +44,7 @@ struct FilterSetup {
   ZeroMotionParams zero;
   StationaryParams stationary;
   WheelMonitorParams wheel_monitor;
+  FixParams gnss;
   std::vector<WheelParams> wheels;
   Vector3 lever_imu_to_reference_b = Vector3::Zero();  ///< from the IMU to the vehicle's centre of turn [m]
   Vector3 lever_imu_to_antenna_b = Vector3::Zero();    ///< from the IMU to the antenna of gps/fix [m]

@@ -17,9 +17,13 @@ class MeasurementSet {
   struct Block {
     Component component = kForwardSpeed;
     Measurement measurement{1};
+    double variance_factor = 1.0;
   };
 
-  void add(Component component, const Measurement& measurement) { blocks_[size_++] = {component, measurement}; }
+  /// @param variance_factor what the variance counts in the update, where it was gated by that of the measurement
+  void add(Component component, const Measurement& measurement, double variance_factor = 1.0) {
+    blocks_[size_++] = {component, measurement, variance_factor};
+  }
   std::size_t size() const { return size_; }
   Block& operator[](std::size_t i) { return blocks_[i]; }
 

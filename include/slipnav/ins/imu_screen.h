@@ -59,6 +59,9 @@ class ImuScreen {
 
   /// Stamp of the newest accepted sample, 0 before the first.
   Nanoseconds newestStamp() const { return newest_stamp_; }
+  /// Whether all axes have repeated the very same values `stuck_samples` times: a sensor or driver that hangs. The
+  /// samples are accepted nevertheless, since a sensor that counts coarsely says the same at rest.
+  bool isFrozen() const;
 
  private:
   /// How often in a row each axis of one triad has had the very same value.
@@ -68,6 +71,7 @@ class ImuScreen {
     void add(const Vector3& next);
     /// Whether an axis has repeated itself `limit` times, and another one has not.
     bool isStuck(int limit) const;
+    bool areFrozen(int limit) const;
   };
 
   bool isInRange(const ImuSample& sample) const;

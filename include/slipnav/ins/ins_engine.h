@@ -64,6 +64,8 @@ class InsEngine {
 
   /// Stamp of the newest accepted sample, 0 before the first.
   Nanoseconds newestStamp() const { return screen_.newestStamp(); }
+  /// All axes of the IMU repeat themselves.
+  bool isImuFrozen() const { return screen_.isFrozen(); }
   const Planet& planet() const { return strapdown_.planet(); }
 
  private:

@@ -1,13 +1,35 @@
 #pragma once
-/// Satellite position and velocity of the antenna (Groves 14.3.1, loosely coupled), for initialisation only.
+/// Satellite position and velocity of the antenna (Groves 14.3.1, loosely coupled): for the start, and where that is
+/// wanted, positions while driving.
 
+#include <string>
 #include <variant>
 
+#include "slipnav/config/parameter_visitor.h"
 #include "slipnav/earth/planet.h"
 #include "slipnav/filter/kalman_update.h"
 #include "slipnav/sensors.h"
 
 namespace slipnav {
+
+/// Block `gnss`.
+struct FixParams {
+  std::string use = "start";
+  double correlation_s = 10.0;
+  double max_wait_s = 0.3;
+  void visit(ParameterVisitor& v);
+
+  bool always() const { return use == "always"; }
+};
+
+/// Stamps of fixes that differ by so much are a jump of the clock: receivers are slow.
+inline constexpr Nanoseconds kFixJump = 5 * kSecond;
+
+/// What the variance of a fix has to be multiplied by, `interval_s` after the last one that was used: errors of
+/// receivers are alike for a while, and many fixes that share one are worth little more than one. For errors of
+/// first-order Gauss-Markov kind the mean over many fixes then has the right variance: (1 + ρ)/(1 − ρ) with
+/// ρ = exp(−interval/correlation).
+double repeatedFixFactor(double interval_s, double correlation_s);
 
 /// Position of the antenna and its variances, uncorrelated.
 struct PositionFix {

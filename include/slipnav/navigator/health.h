@@ -34,8 +34,8 @@ class HealthMonitor {
   /// The clock was set back by so much.
   void noteSetBack(double step_s, Nanoseconds stamp);
   /// @param taken whether the filter had use for it
-  void noteWheels(Nanoseconds stamp, bool taken);
-  /// Looks at rejected measurements, silent wheels and wheels that contradict the others.
+  void noteWheels(const WheelMotion& wheels, bool taken);
+  /// Looks at rejected measurements, silent wheels, wheels that contradict the others, and wheels that turn backwards.
   void noteFilter(const FilterEngine& filter);
   /// Anything else that is wrong at `stamp`.
   void note(const std::string& name, Nanoseconds stamp);
@@ -43,19 +43,23 @@ class HealthMonitor {
   /// @param name begins the name of the alarm; @param size in `unit`
   void noteSized(const std::string& name, double size, const std::string& unit, Nanoseconds stamp);
   /// The clock has gone back.
-  void restart() { newest_wheels_ = 0; }
+  void restart() { newest_wheels_ = against_since_ = 0; }
 
   /// Everything there has been.
   const Alarms& alarms() const { return alarms_; }
-  /// What has been seen in the last seconds before `now`, with commas between, "" for nothing.
-  std::string active(Nanoseconds now) const;
 
  private:
+  void noteSilence(Nanoseconds now);
+  void noteDirection(const NavigationState& state);
+  void noteRejections(const FilterEngine& filter);
+
   double max_wheel_interval_s_;
   std::vector<std::string> wheel_names_;
   std::array<std::uint64_t, kComponents> rejected_ = {};  ///< when the filter was looked at last
   Nanoseconds newest_wheels_ = 0;
-  StampFaults stamp_faults_;  ///< as noted last
+  double wheel_speed_mps_ = 0.0;   ///< forward, by the newest wheel sample
+  Nanoseconds against_since_ = 0;  ///< wheels and vehicle go opposite ways; 0: they do not
+  StampFaults stamp_faults_;       ///< as noted last
   std::map<std::string, double> sizes_;
   Alarms alarms_;
 };

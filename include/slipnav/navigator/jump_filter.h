@@ -19,6 +19,9 @@ class JumpFilter {
   /// Stamps of one source that differ by this much are a jump.
   static constexpr Nanoseconds kJump = kSecond;
 
+  /// @param jump another limit, for a source that is slower than one sample a second
+  explicit JumpFilter(Nanoseconds jump = kJump) : jump_(jump) {}
+
   /// Gives `sink` what may be used now: nothing, the sample, or the held one and the sample.
   template <class Sink>
   void push(const Sample& sample, const Sink& sink) {
@@ -43,12 +46,12 @@ class JumpFilter {
   std::uint64_t leftOut() const { return left_out_; }
 
  private:
-  static bool isNear(Nanoseconds stamp, Nanoseconds other) { return stamp > other - kJump && stamp < other + kJump; }
+  bool isNear(Nanoseconds stamp, Nanoseconds other) const { return stamp > other - jump_ && stamp < other + jump_; }
 
   /// A slow sensor jumps with every sample, so any progress will do; but one that went back must not be ahead again.
   bool goesOnFromHeld(Nanoseconds stamp) const {
     const bool held_went_back = held_->stamp < newest_;
-    return stamp > held_->stamp - kJump && (!held_went_back || stamp < newest_);
+    return stamp > held_->stamp - jump_ && (!held_went_back || stamp < newest_);
   }
 
   void discardHeld() {
@@ -62,6 +65,7 @@ class JumpFilter {
     sink(sample);
   }
 
+  Nanoseconds jump_;
   Nanoseconds newest_ = 0;  ///< of the present run of samples
   std::optional<Sample> held_;
   std::uint64_t left_out_ = 0;

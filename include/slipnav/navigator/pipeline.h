@@ -34,7 +34,7 @@ class Pipeline {
 
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
-  /// Satellite position or velocity; has no effect once the initialisation has ended.
+  /// Satellite position or velocity; once the initialisation has ended, positions with `gnss.use: always` alone.
   void push(const AntennaFix& fix);
   /// For the initialisation source `truth`.
   void setTruth(const NavigationState& truth, bool has_attitude);

@@ -33,7 +33,11 @@ class SampleMerger {
   using Sink = std::function<void(const Sample&)>;
 
   /// @param max_wait_s how late a sample may be, in stamps of the IMU
-  explicit SampleMerger(double max_wait_s) : max_wait_(fromSeconds(max_wait_s)) {}
+  /// @param fix_jump of positions, where those of a slow receiver must not be late
+  explicit SampleMerger(double max_wait_s, Nanoseconds fix_jump = JumpFilter<PositionFix>::kJump)
+      : max_wait_(fromSeconds(max_wait_s)) {
+    std::get<JumpFilter<PositionFix>>(filters_) = JumpFilter<PositionFix>(fix_jump);
+  }
 
   void push(const Sample& sample);
 

@@ -17,8 +17,6 @@ struct OverlayParams {
   double slip_full_scale = 0.3;
   double text_height_m = 0.7;
   std::string frame = "overlay";
-  double panel_east_m = -18.0;
-  double panel_north_m = 12.5;
   double legend_east_m = 6.5;
   double legend_north_m = 12.5;
   void visit(ParameterVisitor& v);

@@ -22,6 +22,7 @@
 #include "slipnav/ros/clock_watch.h"
 #include "slipnav/ros/patience_limits.h"
 #include "slipnav/ros/shared_publisher.h"
+#include "slipnav/ros/silence_watch.h"
 #include "slipnav/ros/tuning_server.h"
 
 namespace slipnav {
@@ -48,8 +49,10 @@ class CoreNodelet : public nodelet::Nodelet {
   virtual void subscribe(const Config& config) = 0;
   /// Calls publisher(); the topic by which others know that this nodelet is ready comes last.
   virtual void advertise(const Config& config) = 0;
-  /// Once a second; may come before begin().
+  /// Twice a second, and when reportNow() is called; may come before begin().
   virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
+  /// More statuses than the one of diagnose().
+  virtual void addDiagnoses(diagnostic_updater::Updater& /*updater*/) {}
   /// Some of the parameters that may be changed while running have changed; called between two messages. Does not
   /// throw.
   virtual void retune(const Config& /*config*/) {}
@@ -111,6 +114,15 @@ class CoreNodelet : public nodelet::Nodelet {
 
   /// Seconds of a clock that only runs forward, for patience.
   static double now() { return ros::SteadyTime::now().toSec(); }
+  /// The same instant by both clocks.
+  static SilenceWatch::Now clocks() { return {ros::Time::now().toSec(), now()}; }
+
+  /// Publishes diagnostics at once, for what must not wait for its turn. From a callback.
+  void reportNow() {
+    if (updater_) {
+      updater_->force_update();
+    }
+  }
 
  private:
   void chooseThread();

@@ -19,6 +19,8 @@ inline constexpr const char* kForecastInputTopic = "forecast_input";
 inline constexpr const char* kForecastProgressTopic = "forecast_progress";
 /// From a nodelet whose parameters were changed to all others: dynamic_reconfigure/Config, what it was changed to.
 inline constexpr const char* kTuningTopic = "tuning";
+/// Overlay to the panel of rviz: std_msgs/String, distance, error and 3σ in one line.
+inline constexpr const char* kFiguresTopic = "figures";
 /// Overlay to robot_state_publisher: the wheels of the model in rviz.
 inline constexpr const char* kModelJointsTopic = "model/joint_states";
 

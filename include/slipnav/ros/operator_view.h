@@ -6,6 +6,7 @@
 #include <slipnav/Initialization.h>
 #include <slipnav/Slip.h>
 #include <slipnav/StopStatus.h>
+#include <std_msgs/String.h>
 
 #include <deque>
 #include <map>
@@ -33,6 +34,7 @@ struct OperatorPicture {
   std::string reason;
   std::string slip;
   std::string since_stop;
+  std::string figures;            ///< of the whole drive; "" where nobody draws
   std::optional<double> bound_m;  ///< now
   double threshold_m = 0.0;
   std::vector<std::pair<double, double>> history;  ///< age [s] and bound [m], oldest first
@@ -51,6 +53,7 @@ class OperatorView {
   void take(const ErrorForecast& message, double now_s);
   void take(const Slip& message, double now_s);
   void take(const Initialization& message, double now_s);
+  void take(const std_msgs::String& figures, double now_s);
   void take(const diagnostic_msgs::DiagnosticArray& message, double now_s);
 
   OperatorPicture picture(double now_s) const;
@@ -70,6 +73,7 @@ class OperatorView {
   std::optional<Heard<ErrorForecast>> forecast_;
   std::optional<Heard<Slip>> slip_;
   std::optional<Heard<Initialization>> start_;
+  std::optional<Heard<std_msgs::String>> figures_;
   std::deque<std::pair<double, double>> bounds_;  ///< time [s] and bound [m]
   std::map<std::string, Heard<diagnostic_msgs::DiagnosticStatus>> statuses_;
   double since_stop_m_ = 0.0;

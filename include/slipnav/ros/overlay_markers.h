@@ -3,7 +3,6 @@
 
 #include <nav_msgs/Path.h>
 #include <slipnav/ErrorForecast.h>
-#include <slipnav/StopStatus.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <set>
@@ -14,11 +13,14 @@
 
 namespace slipnav {
 
-/// The newest messages of the nodelets that forecast and decide; null where there is none.
+/// What is drawn beside the picture of the drive.
 struct OverlayMessages {
-  ErrorForecast::ConstPtr error_forecast;
-  StopStatus::ConstPtr stop;
+  ErrorForecast::ConstPtr error_forecast;  ///< the newest one; null where there is none
+  bool stale = false;                      ///< no estimates come any more: what is of now alone is left out
 };
+
+/// Distance, error against the truth where there is one, and 3σ, in one line.
+std::string figuresOf(const DrivePicture& picture);
 
 /// @param frame_id the map frame
 nav_msgs::Path toPath(const DisplayTrack& track, const std::string& frame_id);

@@ -8,6 +8,7 @@
 
 #include <deque>
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "slipnav/ins/ins_engine.h"
@@ -36,7 +37,7 @@ class TrustedStamp {
   Nanoseconds trusted_ = 0;
 };
 
-/// Holds mechanised steps back from the filter as long as wheel samples that belong before them may be on their way.
+/// Holds mechanised steps back from the filter as long as samples that belong before them may be on their way.
 class StepGate {
  public:
   /// @param max_wait_s filter.max_wait_s; nothing when no wheel samples are used
@@ -51,7 +52,9 @@ class StepGate {
 
   /// Lets steps go, in order.
   /// @param wheels_known_until wheel samples are known without a hole up to this stamp
-  void release(Nanoseconds wheels_known_until, double now_s, const std::function<void(const InsStep&)>& sink);
+  /// @param others_decided_at stamp of the IMU at which the filter stops waiting for others
+  void release(Nanoseconds wheels_known_until, double now_s, const std::function<void(const InsStep&)>& sink,
+               Nanoseconds others_decided_at = std::numeric_limits<Nanoseconds>::max());
 
  private:
   std::optional<double> max_wait_s_;

@@ -4,15 +4,20 @@
 #include <ros/node_handle.h>
 #include <rosgraph_msgs/Clock.h>
 
+#include <optional>
+
 #include "slipnav/ros/shared_publisher.h"
 #include "slipnav/ros/simulated_sensors.h"
 
 namespace slipnav {
 
-/// The publishers of the nodelet Simulator.
+/// The publishers of the nodelets Simulator and SimulatedRover.
 class SensorPublisher {
  public:
-  SensorPublisher(ros::NodeHandle& node, const Config& config);
+  /// Whether time is that of the simulation.
+  enum class Clock { kSimulated, kNone };
+
+  SensorPublisher(ros::NodeHandle& node, const Config& config, Clock clock = Clock::kSimulated);
 
   /// One interval: the clock at its end, unless it has just been told, then the samples in order of their stamps.
   void publish(const sim::Measurements& measurements, const sim::TruthState& truth);
@@ -25,7 +30,7 @@ class SensorPublisher {
 
   SimulatedSensors sensors_;
   ros::SteadyTime told_clock_;
-  SharedPublisher<rosgraph_msgs::Clock> clock_;
+  std::optional<SharedPublisher<rosgraph_msgs::Clock>> clock_;
   SharedPublisher<sensor_msgs::Imu> imu_;
   SharedPublisher<sensor_msgs::JointState> joints_;
   SharedPublisher<sensor_msgs::NavSatFix> gps_;

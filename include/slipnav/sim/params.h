@@ -125,6 +125,9 @@ struct GnssParams {
   double rate_hz = 10.0;
   double horizontal_noise_m = 0.01;  ///< 1σ, each of north and east
   double vertical_noise_m = 0.02;    ///< 1σ
+  double correlation_s = 0.0;        ///< over which errors fall to 1/e; 0: each is independent
+  double outlier_part = 0.0;         ///< of the fixes, that stand off
+  double outlier_m = 30.0;           ///< how far, horizontally, in any direction
   double antenna_x_m = 0.0;          ///< antenna seen from base_link, body axes (forward, right, down)
   double antenna_y_m = 0.0;
   double antenna_z_m = 0.0;

@@ -106,8 +106,13 @@ class GnssModel {
 
  private:
   GnssParams params_;
+  Vector3 error(Nanoseconds stamp);
+
   LocalFrame frame_;
   RandomStream stream_;
+  RandomStream outliers_;
+  Vector3 normal_ = Vector3::Zero();  ///< error of the last fix in standard deviations
+  Nanoseconds newest_ = 0;
 };
 
 }  // namespace slipnav::sim

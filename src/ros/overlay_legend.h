@@ -1,5 +1,5 @@
 #pragma once
-/// The words of the overlay: panel and legend.
+/// The words of the overlay.
 
 #include <string>
 
@@ -11,11 +11,7 @@ namespace slipnav {
 /// Printf-style number: `formatted(0.123, 2)` is "0.12".
 std::string formatted(double value, int decimals);
 
-/// Supervisor, slip, distance and error in a few lines. This and the legend are placed from the rover.
-void drawPanel(const DrivePicture& picture, const OverlayMessages& messages, const OverlayParams& params,
-               MarkerSketch& sketch);
-
-/// What the colours mean.
+/// What the colours mean; placed from the rover.
 void drawLegend(const OverlayParams& params, MarkerSketch& sketch);
 
 }  // namespace slipnav

@@ -1,6 +1,5 @@
-#include "overlay_panel.h"
+#include "overlay_legend.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iomanip>
@@ -18,61 +17,21 @@ constexpr double kSwatchLength_m = 1.6;
 constexpr double kSwatchWidth_m = 0.25;
 constexpr double kAboveGround_m = 1.5;  ///< all words float above whatever lies on the ground
 
-/// Of text, roughly: rviz centres it, and does not say how long it is.
-struct TextSize {
-  double width_m = 0.0;
-  double height_m = 0.0;
-};
-
-TextSize sizeOf(const std::string& words, double letter_height_m) {
-  std::istringstream lines(words);
-  TextSize size;
-  for (std::string line; std::getline(lines, line);) {
-    size.width_m = std::max(size.width_m, kLetterWidth * letter_height_m * static_cast<double>(line.size()));
-    size.height_m += letter_height_m;
-  }
-  return size;
-}
-
-std::string supervisorLine(const DrivePicture& picture, const StopStatus* stop) {
-  if (stop != nullptr && stop->emergency_stop != 0) {
-    return "EMERGENCY STOP";
-  }
-  if (stop != nullptr && stop->overridden != 0) {
-    return "OVERRIDE: NO STOPS";
-  }
-  if (stop == nullptr || stop->mode == StopStatus::MODE_OFF) {
-    return picture.isStationary() ? "STANDING" : "DRIVING";
-  }
-  const bool timed = std::isfinite(stop->time_left_s);
-  const std::string left = timed ? formatted(stop->time_left_s, 0) + " s" : "";
-  switch (stop->state) {
-    case StopStatus::COUNTING_DOWN:
-      return "STOP IN " + left;
-    case StopStatus::STOPPING:
-      return stop->mode == StopStatus::MODE_ADVISE ? "STOP ADVISED" : "STOPPING";
-    case StopStatus::HOLDING:
-      return timed ? "HOLDING, " + left + " left" : "HOLDING";
-    default:
-      return timed ? "DRIVING, stop in " + left : "DRIVING";
-  }
+/// Of a line of text, roughly: rviz centres it, and does not say how long it is.
+double widthOf(const std::string& words, double letter_height_m) {
+  return kLetterWidth * letter_height_m * static_cast<double>(words.size());
 }
 
 std::string errorLine(const DrivePicture& picture) {
   const std::optional<double> error_m = picture.horizontalError();
   if (!error_m) {
-    return "error: no truth";
+    return "";
   }
-  std::string line = "error " + formatted(*error_m, 2) + " m";
+  std::string line = "    error " + formatted(*error_m, 2) + " m";
   if (picture.distance() > 1.0) {
     line += " = " + formatted(100.0 * *error_m / picture.distance(), 2) + " %";
   }
   return line;
-}
-
-std::string forecastLine(const ErrorForecast& forecast) {
-  return "in " + formatted(forecast.times_s.back(), 0) + " s " + formatted(forecast.horizontal_bound_m.back(), 2) +
-         " m, threshold " + formatted(forecast.threshold_m, 1) + " m";
 }
 
 /// One line of the legend: a swatch that goes from one colour to another, and what it means.
@@ -105,20 +64,9 @@ std::string formatted(double value, int decimals) {
   return out.str();
 }
 
-void drawPanel(const DrivePicture& picture, const OverlayMessages& messages, const OverlayParams& params,
-               MarkerSketch& sketch) {
-  std::string words = supervisorLine(picture, messages.stop.get());
-  words += "\nslip " + (picture.slip() ? formatted(*picture.slip(), 2) : std::string("-"));
-  words += "\ndistance " + formatted(picture.distance(), 1) + " m";
-  words += "\n" + errorLine(picture);
-  words += "\n3 sigma " + formatted(picture.horizontalBound(), 2) + " m";
-  if (messages.error_forecast && !messages.error_forecast->horizontal_bound_m.empty()) {
-    words += "\n" + forecastLine(*messages.error_forecast);
-  }
-  const TextSize size = sizeOf(words, params.text_height_m);
-  const Vector3 centre(params.panel_east_m + 0.5 * size.width_m, params.panel_north_m - 0.5 * size.height_m,
-                       kAboveGround_m);
-  sketch.text("panel", 0, centre, params.text_height_m, kTextColour, words);
+std::string figuresOf(const DrivePicture& picture) {
+  return "distance " + formatted(picture.distance(), 1) + " m" + errorLine(picture) + "    3σ " +
+         formatted(picture.horizontalBound(), 2) + " m";
 }
 
 void drawLegend(const OverlayParams& params, MarkerSketch& sketch) {
@@ -130,7 +78,7 @@ void drawLegend(const OverlayParams& params, MarkerSketch& sketch) {
     const Vector3 end = begin + Vector3(kSwatchLength_m, 0.0, 0.0);
     lines.points.insert(lines.points.end(), {toPoint(begin), toPoint(end)});
     lines.colors.insert(lines.colors.end(), {toMessage(entry.from), toMessage(entry.to)});
-    const double half_width_m = 0.5 * sizeOf(entry.meaning, params.text_height_m).width_m;
+    const double half_width_m = 0.5 * widthOf(entry.meaning, params.text_height_m);
     sketch.text("legend", row + 1, end + Vector3(params.text_height_m + half_width_m, 0.0, 0.0), params.text_height_m,
                 kTextColour, entry.meaning);
     ++row;

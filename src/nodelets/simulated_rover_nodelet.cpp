@@ -1,0 +1,93 @@
+/// slipnav/SimulatedRover: a rover that is not there, for operators who want to drive. In real time, by the clock of
+/// ROS; what it is told last it does for a second, as bases do. To the nodelets it is a rover like any other.
+///
+/// In: cmd_vel. Out: imu/data, joint_states, gps/fix, truth/fix, truth/odometry.
+
+#include <geometry_msgs/Twist.h>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <algorithm>
+#include <memory>
+
+#include "slipnav/eval/simulated_drive.h"
+#include "slipnav/ros/conversions.h"
+#include "slipnav/ros/core_nodelet.h"
+#include "slipnav/ros/sensor_publisher.h"
+#include "slipnav/ros/stop_messages.h"
+
+namespace slipnav {
+
+namespace {
+
+/// [s] after which a command counts no more: nobody drives.
+constexpr double kCommandLifetime_s = 1.0;
+/// A machine that was busy for longer does not catch up with more than this [s]: the rover has stood still meanwhile.
+constexpr double kMostBehind_s = 1.0;
+
+}  // namespace
+
+class SimulatedRoverNodelet : public CoreNodelet {
+ public:
+  ~SimulatedRoverNodelet() override { stop(); }
+
+ private:
+  void begin(const Config& config) override {
+    sim::SimulatorParams params = config.simulator;
+    params.start_time_s = ros::Time::now().toSec();
+    rover_ = std::make_unique<sim::RoverSimulator>(params, Planet::byName(config.planet));
+    behind_since_s_ = now();
+  }
+
+  bool needsExtrinsics() const override { return false; }
+
+  void subscribe(const Config& config) override {
+    listen<geometry_msgs::Twist>(config.topics.cmd_vel, &SimulatedRoverNodelet::onCommand);
+  }
+
+  void advertise(const Config& config) override {
+    sensors_ = std::make_unique<SensorPublisher>(node(), config, SensorPublisher::Clock::kNone);
+  }
+
+  void onCommand(const geometry_msgs::Twist::ConstPtr& message) {
+    const VelocityCommand in_users_axes = toVelocityCommand(*message);
+    if (in_users_axes.isFinite()) {
+      command_ = {swapFrdFlu(in_users_axes.linear_mps), swapFrdFlu(in_users_axes.angular_radps)};
+      commanded_s_ = now();
+    }
+  }
+
+  double tickInterval_s() const override { return 0.01; }
+  void onTick() override {
+    const double now_s = now();
+    due_s_ = std::min(due_s_ + now_s - behind_since_s_, kMostBehind_s);
+    behind_since_s_ = now_s;
+    while (due_s_ > 0.0) {
+      const Nanoseconds before = rover_->truth().stamp;
+      const bool is_told = now_s - commanded_s_ < kCommandLifetime_s;
+      const sim::Measurements measurements =
+          rover_->step(is_told ? sim::Command{command_.linear_mps.x(), command_.angular_radps.z()} : sim::Command{});
+      sensors_->publish(measurements, rover_->truth());
+      due_s_ -= toSeconds(rover_->truth().stamp - before);
+    }
+  }
+
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
+    using diagnostic_msgs::DiagnosticStatus;
+    const bool is_told = now() - commanded_s_ < kCommandLifetime_s;
+    status.summary(DiagnosticStatus::OK, is_told ? "obeying" : "waiting for commands");
+    if (rover_) {
+      status.addf("distance [m]", "%.1f", rover_->truth().distance_m);
+    }
+  }
+
+  std::unique_ptr<sim::RoverSimulator> rover_;
+  std::unique_ptr<SensorPublisher> sensors_;
+  VelocityCommand command_;
+  double commanded_s_ = -2.0 * kCommandLifetime_s;
+  double due_s_ = 0.0;  ///< to be simulated
+  double behind_since_s_ = 0.0;
+};
+
+}  // namespace slipnav
+
+PLUGINLIB_EXPORT_CLASS(slipnav::SimulatedRoverNodelet, nodelet::Nodelet)
