@@ -86,7 +86,7 @@ class Proposal {
       comment("imu.mount: this drive does not tell it");
       return;
     }
-    if (mounting.has_turn && mounting.turn_gain < 0.0) {
+    if (mounting.has_turn && mounting.turn_per_rate < 0.0) {
       comment("imu.mount: gyros and wheels contradict each other");
       return;
     }
@@ -121,7 +121,7 @@ class Proposal {
     }
     if (found_.scale.known && found_.scale.std < kSureRadius * found_.scale.value) {
       reason = "radius by positions over " + decimal(found_.scale.distance_m, 0) + " m, ± " +
-               decimal(1e3 * found_.scale.std, 2) + " mm (1 sigma)";
+               decimal(1e3 * found_.scale.std, 2) + " mm (1 sigma), slip of this drive included";
       return found_.scale.value;
     }
     return 0.0;
@@ -137,14 +137,14 @@ class Proposal {
     const bool sides = std::all_of(found_.wheels.begin(), found_.wheels.end(),
                                    [](const WheelJoint& wheel) { return wheel.side != Side::kUnknown; });
     yaml_ += "\n";
-    if (radius_m <= 0.0 || !sides || !mounting.has_turn || mounting.turn_gain <= 0.0) {
+    if (radius_m <= 0.0 || !sides || !mounting.has_turn || mounting.turn_per_rate <= 0.0) {
       comment("wheels: names and signs are known, but not " +
-              std::string(radius_m <= 0.0 ? "the radius: check --wheel-radius M" : "on which side each is"));
+              std::string(radius_m <= 0.0 ? "the radius: check --wheel-radius M" : "the track, or on which side each is"));
       return;
     }
     const double unit = found_.track.in_meters ? 1.0 : radius_m;
-    const double track_m = unit / mounting.turn_gain;
-    const double share = mounting.turn_gain_std / mounting.turn_gain;
+    const double track_m = unit * mounting.turn_per_rate;
+    const double share = mounting.turn_per_rate_std / mounting.turn_per_rate;
     comment(radius_reason + "; names and sides by their names, signs by how they turn");
     comment("track of " + decimal(track_m, 3) + " m by the gyros, ± " + decimal(100.0 * share, 1) +
             " % (1 sigma), scrub included" + (share > kSureTrack ? ": measure it" : ""));

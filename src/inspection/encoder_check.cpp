@@ -177,9 +177,7 @@ void checkEncoders(const JointRecord& record, const std::vector<WheelJoint>& whe
 }
 
 void checkDirection(const WheelTrack& wheels, const Mounting& mounting, Findings& findings) {
-  const bool has_sign = std::any_of(wheels.rows.begin(), wheels.rows.end(),
-                                    [&wheels](const WheelRow& row) { return row.speed < -wheels.rest_speed; });
-  if (has_sign || mounting.batches_backward < kLeastBatches || mounting.batches_forward < kLeastBatches) {
+  if (hasSign(wheels) || mounting.batches_backward < kLeastBatches || mounting.batches_forward < kLeastBatches) {
     return;
   }
   findings.push_back({Severity::kUnusable, wheels.topic,

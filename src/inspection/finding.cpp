@@ -1,6 +1,7 @@
 #include "slipnav/inspection/finding.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -33,6 +34,21 @@ void sortWorstFirst(Findings& findings) {
                    [](const Finding& a, const Finding& b) { return a.severity < b.severity; });
 }
 
+void mergeAlike(Findings& findings) {
+  Findings merged;
+  for (const Finding& finding : findings) {
+    const auto same = std::find_if(merged.begin(), merged.end(), [&finding](const Finding& other) {
+      return other.severity == finding.severity && other.text == finding.text && other.remedy == finding.remedy;
+    });
+    if (same == merged.end()) {
+      merged.push_back(finding);
+    } else if (same->subject != finding.subject) {
+      same->subject += ", " + finding.subject;
+    }
+  }
+  findings = std::move(merged);
+}
+
 int statusOf(const Findings& findings) {
   if (countOf(findings, Severity::kUnusable) > 0) {
     return 2;
@@ -56,7 +72,8 @@ std::string toText(const Findings& findings) {
 std::string decimal(double value, int decimals) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  out << std::fixed << std::setprecision(decimals) << value;
+  const double least = 0.5 * std::pow(10.0, -decimals);
+  out << std::fixed << std::setprecision(decimals) << (std::abs(value) < least ? 0.0 : value);  // no "-0.0"
   return out.str();
 }
 

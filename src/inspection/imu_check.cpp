@@ -26,7 +26,11 @@ constexpr double kLeastTrackInRadii = 0.5;
 /// Wheels in m/s and accelerometer agree within it, unless a radius is wrong.
 constexpr double kLeastGain = 0.5;
 constexpr double kLargestGain = 2.0;
+constexpr double kReversed_rad = 0.75 * kPi;
 constexpr double kAxisTolerance_rad = 0.35;
+/// Where wheels slip much, their turns do not show an axis.
+constexpr double kClearTurn = 0.5;
+constexpr double kClearForce = 0.8;
 constexpr double kTiltWorthSaying_rad = 0.1;
 constexpr double kSigmas = 3.0;
 
@@ -62,13 +66,13 @@ void checkTurn(const std::string& topic, const Mounting& mounting, const WheelTr
     return;
   }
   const double least = wheels.in_meters ? kLeastTrack_m : kLeastTrackInRadii;
-  const bool too_fast = wheels.turn_is_rate ? std::abs(mounting.turn_gain) > kUnitFactor
-                                            : std::abs(mounting.turn_gain) * least > 1.0;
+  const double smallest = wheels.turn_is_rate ? 1.0 / kUnitFactor : least;
+  const bool too_fast = std::abs(mounting.turn_per_rate) < smallest;
   if (too_fast) {
     findings.push_back({Severity::kUnusable, topic, complaintOfRateUnit("more than 15 times as far as the wheels"),
                         "multiply by 0.01745 in the driver, or switch it to rad/s"});
   }
-  if (mounting.turn_gain < 0.0) {
+  if (mounting.turn_per_rate < 0.0) {
     findings.push_back(
         {Severity::kUnusable, topic,
          "gyros and wheels turn in opposite directions about the axis that the specific force calls up (correlation " +
@@ -78,7 +82,7 @@ void checkTurn(const std::string& topic, const Mounting& mounting, const WheelTr
     return;
   }
   const double off_rad = std::acos(std::clamp(mounting.turn_axis.dot(mounting.up), -1.0, 1.0));
-  if (off_rad > kAxisTolerance_rad) {
+  if (off_rad > kAxisTolerance_rad && mounting.turn_correlation > kClearTurn) {
     findings.push_back({Severity::kDoubtful, topic,
                         "the vehicle turns about an axis " + decimal(radToDeg(off_rad), 0) +
                             " deg away from the one that the specific force calls up",
@@ -93,7 +97,7 @@ void checkForward(const std::string& topic, const Mounting& mounting, const Whee
                         "drive straight ahead and brake a few times, or give imu.mount"});
     return;
   }
-  const bool known = mounting.force_gain_std < 0.25 * mounting.force_gain;
+  const bool known = mounting.force_gain_std < 0.25 * mounting.force_gain && mounting.force_correlation > kClearForce;
   if (wheels.in_meters && known &&
       (mounting.force_gain > kLargestGain || mounting.force_gain < kLeastGain)) {
     findings.push_back({Severity::kDoubtful, wheels.topic,
@@ -108,14 +112,18 @@ void checkForward(const std::string& topic, const Mounting& mounting, const Whee
   }
 }
 
-void compareWithConfiguration(const std::string& topic, const Mounting& mounting, const Matrix3& configured,
-                              Findings& findings) {
+void compareWithConfiguration(const std::string& topic, const Mounting& mounting, const WheelTrack& wheels,
+                              const Matrix3& configured, Findings& findings) {
   const double tilt_rad = std::acos(std::clamp((configured * mounting.up).z(), -1.0, 1.0));
   const double turn_rad =
       mounting.has_forward ? std::atan2((configured * mounting.forward).y(), (configured * mounting.forward).x()) : 0.0;
   const bool upright = tilt_rad < 0.25 * kPi;
   const bool straight = std::abs(turn_rad) < 0.25 * kPi + kSigmas * mounting.forward_std_rad;
-  if (!upright || !straight) {
+  if (upright && std::abs(turn_rad) > kReversed_rad) {
+    findings.push_back({Severity::kUnusable, topic, complaintOfDirection(hasSign(wheels)),
+                        "publish the speed with its sign, negative when the vehicle reverses; or correct wheels[].sign "
+                        "or imu.mount.yaw_deg"});
+  } else if (!upright || !straight) {
     const MountParams found = toMountParams(mounting.nearest);
     findings.push_back({Severity::kUnusable, topic,
                         "imu.mount does not say how the sensor is turned: what it calls up is off by " +
@@ -201,7 +209,7 @@ void checkMounting(const std::string& topic, const Mounting& mounting, const Whe
                             : "nothing, if imu.mount says the same"});
   }
   if (configured) {
-    compareWithConfiguration(topic, mounting, *configured, findings);
+    compareWithConfiguration(topic, mounting, wheels, *configured, findings);
   }
 }
 

@@ -12,8 +12,8 @@
 namespace slipnav {
 namespace {
 
-constexpr StreamNeeds kImuNeeds = {20.0, 1000.0, true};
-constexpr StreamNeeds kWheelNeeds = {2.0, 1000.0, false};
+constexpr StreamNeeds kImuNeeds = {20.0, 1000.0, false};  // scatter: see ImuClock
+constexpr StreamNeeds kWheelNeeds = {2.0, 1000.0, true};
 constexpr StreamNeeds kPositionNeeds = {0.0, 1000.0, false};
 /// No message is on its way for so long.
 constexpr double kApart_s = 0.5;
@@ -21,17 +21,21 @@ constexpr double kApart_s = 0.5;
 constexpr double kCorrectable_s = 1.0;
 /// Sharper than a shift is known.
 constexpr double kLeastShift_s = 0.1;
+/// Of the first pose of a truth in the robot's own frame, and of those that follow (sine of half of the tilt).
+constexpr double kZero_m = 1e-3;
+constexpr double kLevel = 1e-4;
+constexpr double kLeans = 2e-3;
 /// Speeds that DirectionCheck looks at.
 constexpr double kRestSpeed_mps = 0.02;
 
 /// Begins at exactly zero with attitude zero, and leans later: the frame is that of the robot at the start.
 bool isInStartFrame(const PoseRecord& record) {
-  const auto leans = [](const RawPoseSample& sample) {
-    return sample.q_to_parent && std::abs((sample.q_to_parent->toRotationMatrix())(2, 2)) < 1.0 - 1e-9;
+  const auto tilt = [](const RawPoseSample& sample) {  // sine of half of it
+    return sample.q_to_parent ? sample.q_to_parent->vec().head<2>().norm() : 0.0;
   };
+  const auto leans = [&tilt](const RawPoseSample& sample) { return tilt(sample) > kLeans; };
   const RawPoseSample& first = record.samples.front();
-  const bool begins_at_zero = first.position_m.isZero() && first.q_to_parent &&
-                              first.q_to_parent->angularDistance(Quaternion::Identity()) < 1e-9;
+  const bool begins_at_zero = first.position_m.norm() < kZero_m && first.q_to_parent && tilt(first) < kLevel;
   return begins_at_zero && std::any_of(record.samples.begin(), record.samples.end(), leans);
 }
 
@@ -52,6 +56,7 @@ class Inspector {
       checkImu();
     }
     checkPositions();
+    mergeAlike(result_.findings);
     sortWorstFirst(result_.findings);
     return std::move(result_);
   }
@@ -253,7 +258,8 @@ class Inspector {
     const double apart_s = imu_statistics_.delay_s - statistics.delay_s;
     const bool known = imu_statistics_.zero == 0 && statistics.zero == 0 && statistics.messages > 0;
     if (known && std::abs(apart_s) > kApart_s) {
-      say(Severity::kUnusable, topic, clocksApart(result_.roles.imu->topic, topic, apart_s) + ", by when they came",
+      say(Severity::kUnusable, topic,
+          "by when messages came, " + clocksApart(result_.roles.imu->topic, topic, apart_s),
           "synchronise the clocks (chrony); for a receiver in GPS time see initialization.fix_stamp_offset_s");
     }
   }

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <complex>
-#include <map>
+#include <stdexcept>
 
+#include "slipnav/calibration/batch_regression.h"
 #include "slipnav/math/rotation.h"
 #include "slipnav/math/square.h"
 
@@ -20,7 +21,8 @@ constexpr double kLargestStd_rad = 0.35;
 constexpr double kHalfQuarter_rad = 0.25 * kPi;
 /// A batch speaks clearly when force and wheels correlate by more.
 constexpr double kClear = 0.6;
-constexpr double kLeastTurnCorrelation = 0.5;
+/// Its sign says whether anything is upside down: to be sure of.
+constexpr double kTurnSigmas = 5.0;
 constexpr double kSigmas = 3.0;
 
 /// Axes across `up`: their product is up.
@@ -41,8 +43,6 @@ struct BatchSums {
   Complex product = 0.0;  ///< Σ force · conj(motion)
   double motion = 0.0;    ///< Σ |motion|²
   double force = 0.0;     ///< Σ |force|²
-  double lateral = 0.0;   ///< Σ of lateral force and v ω
-  double turning = 0.0;   ///< Σ (v ω)²
 };
 
 struct Gain {
@@ -126,14 +126,21 @@ void estimateForward(const std::vector<std::vector<MotionRow>>& batches, Mountin
   mounting.force_gain_std = gain.along_std;
   mounting.forward_std_rad = std::atan(gain.across_std / mounting.force_gain);
   mounting.forward = plane.toVector(direction);
-  mounting.has_forward = static_cast<double>(batches.size()) >= kLeastBatches &&
-                         mounting.forward_std_rad < kLargestStd_rad &&
-                         mounting.force_gain > kSigmas * mounting.force_gain_std;
+  BatchSums all;
   for (const BatchSums& batch : sums) {
     const double likeness = (batch.product * std::conj(direction)).real() / std::sqrt(batch.motion * batch.force + 1e-12);
     mounting.batches_forward += likeness > kClear ? 1 : 0;
     mounting.batches_backward += likeness < -kClear ? 1 : 0;
+    all.motion += batch.motion;
+    all.force += batch.force;
   }
+  mounting.force_correlation = mounting.force_gain * std::sqrt(all.motion / std::max(all.force, 1e-12));
+  const auto agree = static_cast<double>(mounting.batches_forward);
+  const auto contradict = static_cast<double>(mounting.batches_backward);
+  const bool has_sign = mounting.force_gain > kSigmas * mounting.force_gain_std ||
+                        agree - contradict >= kSigmas * std::sqrt(agree + contradict + 1.0);  // as of a coin
+  mounting.has_forward = static_cast<double>(batches.size()) >= kLeastBatches &&
+                         mounting.forward_std_rad < kLargestStd_rad && has_sign;
 }
 
 /// Lateral force against speed times heading rate alone.
@@ -152,31 +159,40 @@ void estimateCentripetal(const std::vector<std::vector<MotionRow>>& batches, Mou
   mounting.centripetal_std = gain.along_std / mounting.force_gain;
 }
 
-void estimateTurn(const std::vector<std::vector<MotionRow>>& batches, Mounting& mounting) {
-  std::vector<BatchSums> sums(batches.size());
+/// The wheels' turn over the gyros' by robust regression: slip comes in impulses.
+void regressTurn(const MotionTable& table, Mounting& mounting) {
+  RegressionProblem problem(1);
+  for (const MotionRow& row : table.rows) {
+    problem.add(Eigen::VectorXd::Constant(1, mounting.up.dot(row.rate)), row.turn, row.batch);
+  }
+  try {
+    const RegressionResult result = regress(problem);
+    mounting.turn_per_rate = result.estimate(0);
+    mounting.turn_per_rate_std = std::sqrt(std::max(result.covariance(0, 0), 0.0));
+    mounting.has_turn = std::abs(mounting.turn_per_rate) > kTurnSigmas * mounting.turn_per_rate_std;
+  } catch (const std::invalid_argument&) {
+    mounting.has_turn = false;  // the vehicle does not turn
+  }
+}
+
+void estimateTurn(const MotionTable& table, Mounting& mounting) {
   Vector3 axis = Vector3::Zero();
-  double about_up = 0.0;
-  for (std::size_t b = 0; b < batches.size(); ++b) {
-    for (const MotionRow& row : batches[b]) {
-      const double rate = mounting.up.dot(row.rate);
-      sums[b].product += rate * row.turn;
-      sums[b].motion += square(row.turn);
-      about_up += square(rate);
-      axis += row.rate * row.turn;
-    }
-  }
-  const Gain gain = gainOf(sums);
+  double product = 0.0;
   double turned = 0.0;
-  for (const BatchSums& batch : sums) {
-    turned += batch.motion;
+  double rotated = 0.0;
+  for (const MotionRow& row : table.rows) {
+    const double rate = mounting.up.dot(row.rate);
+    product += rate * row.turn;
+    rotated += square(rate);
+    turned += square(row.turn);
+    axis += row.rate * row.turn;
   }
-  mounting.turn_gain = gain.value.real();
-  mounting.turn_gain_std = gain.along_std;
+  if (turned <= 0.0 || rotated <= 0.0) {
+    return;
+  }
   mounting.turn_axis = axis.norm() > 0.0 ? axis.normalized() : mounting.up;
-  mounting.turn_correlation = about_up > 0.0 ? mounting.turn_gain * std::sqrt(turned / about_up) : 0.0;
-  mounting.has_turn = static_cast<double>(batches.size()) >= kLeastBatches &&
-                      std::abs(mounting.turn_correlation) > kLeastTurnCorrelation &&
-                      std::abs(mounting.turn_gain) > kSigmas * mounting.turn_gain_std;
+  mounting.turn_correlation = product / std::sqrt(rotated * turned);
+  regressTurn(table, mounting);
 }
 
 double angleBetween(const Matrix3& a, const Matrix3& b) {
@@ -210,7 +226,7 @@ Mounting estimateMounting(const MotionTable& table, const RestPicture& rest) {
   if (mounting.has_forward) {
     estimateCentripetal(batches, mounting);
   }
-  estimateTurn(batches, mounting);
+  estimateTurn(table, mounting);
   chooseNearest(mounting);
   return mounting;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "slipnav/earth/planet.h"
-#include "slipnav/eval/motion.h"
 #include "slipnav/eval/statistics.h"
 #include "slipnav/eval/truth_gate.h"
 #include "slipnav/inspection/stream_check.h"
@@ -19,6 +18,10 @@ constexpr double kPoor_m = 1.0;
 /// Slopes that no rover drives on average.
 constexpr double kSteep = 0.3;
 constexpr double kPiece_m = 10.0;
+constexpr double kChord_m = 1.0;
+/// Of the time of a piece that wheels have to cover, and of its way that may be backwards.
+constexpr double kComplete = 0.9;
+constexpr double kReverseShare = 0.01;
 constexpr std::size_t kLeastPieces = 3;
 /// Radii are not further off; beyond, the unit is wrong.
 constexpr double kScaleTolerance = 0.05;
@@ -74,7 +77,7 @@ void checkQuality(const FixRecord& record, Findings& findings) {
         std::count_if(sigmas.begin(), sigmas.end(), [best](double sigma) { return sigma > kMixed * best; });
     findings.push_back({Severity::kDoubtful, record.topic,
                         "fixes of mixed quality, " + span + ": " +
-                            counted(static_cast<std::size_t>(poor), "fix") + " far worse than the others",
+                            std::to_string(poor) + " of them far worse than the others",
                         "each counts by its covariance; wait for the receiver to settle before driving"});
   } else if (best > kPoor_m) {
     findings.push_back({Severity::kRemark, record.topic, "fixes are good to " + span,
@@ -101,20 +104,20 @@ void checkHeight(const std::string& topic, const TruthTrack& positions, Findings
   }
 }
 
-/// Way by the wheels between two times [unit of the track]; negative where the vehicle turned or wheels are missing.
-double straightWay(const WheelTrack& wheels, double from_s, double to_s) {
+/// Way by the wheels between two times [unit of the track]; negative where the vehicle reversed or rows are missing.
+double wayForward(const WheelTrack& wheels, double from_s, double to_s) {
   double way = 0.0;
   double covered_s = 0.0;
   double reverse = 0.0;
-  for (const WheelRow& row : wheels.rows) {
-    if (row.time_s > from_s && row.time_s <= to_s) {
-      way += row.speed * row.interval_s;
-      reverse += row.speed < 0.0 ? -row.speed * row.interval_s : 0.0;
-      covered_s += row.interval_s;
-    }
+  const auto begin = std::upper_bound(wheels.rows.begin(), wheels.rows.end(), from_s,
+                                      [](double t, const WheelRow& row) { return t < row.time_s; });
+  for (auto row = begin; row != wheels.rows.end() && row->time_s <= to_s; ++row) {
+    way += row->speed * row->interval_s;
+    reverse += row->speed < 0.0 ? -row->speed * row->interval_s : 0.0;
+    covered_s += row->interval_s;
   }
-  const bool complete = covered_s > 0.9 * (to_s - from_s);
-  return complete && reverse < 0.01 * std::abs(way) ? way : -1.0;
+  const bool complete = covered_s > kComplete * (to_s - from_s);
+  return complete && reverse < kReverseShare * std::abs(way) ? way : -1.0;
 }
 
 }  // namespace
@@ -190,27 +193,29 @@ void checkTimeInCommon(const std::string& topic, const TruthTrack& positions, do
 WheelScale wheelScale(const TruthTrack& positions, const WheelTrack& wheels) {
   WheelScale scale;
   const TruthTrack track = withoutJumps(positions);
+  if (track.empty()) {
+    return scale;
+  }
   std::vector<double> ratios;
-  const TruthSample* begin = nullptr;
+  TruthSample begin = track.samples().front();
+  TruthSample before = begin;
   double along_m = 0.0;
-  const TruthSample* before = nullptr;
   for (const TruthSample& sample : track.samples()) {
-    if (begin == nullptr) {
-      begin = before = &sample;
+    const double chord_m = (sample.position_enu_m - before.position_enu_m).head<2>().norm();
+    if (chord_m < kChord_m) {
+      continue;  // shorter ones are noise
+    }
+    along_m += chord_m;
+    before = sample;
+    if (along_m < kPiece_m) {
       continue;
     }
-    along_m += (sample.position_enu_m - before->position_enu_m).head<2>().norm();
-    before = &sample;
-    const double chord_m = (sample.position_enu_m - begin->position_enu_m).head<2>().norm();
-    if (chord_m < kPiece_m && along_m < 2.0 * kPiece_m) {
-      continue;
+    const double way = wayForward(wheels, toSeconds(begin.stamp), toSeconds(sample.stamp));
+    if (way > 0.0) {
+      ratios.push_back(along_m / way);
+      scale.distance_m += along_m;
     }
-    const double way = straightWay(wheels, toSeconds(begin->stamp), toSeconds(sample.stamp));
-    if (way > 0.0 && chord_m >= kPiece_m && along_m < 1.02 * chord_m) {
-      ratios.push_back(chord_m / way);
-      scale.distance_m += chord_m;
-    }
-    begin = &sample;
+    begin = sample;
     along_m = 0.0;
   }
   if (ratios.size() >= kLeastPieces) {

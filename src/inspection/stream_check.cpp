@@ -13,6 +13,8 @@ constexpr double kGapFactor = 3.0;
 constexpr double kGap_s = 0.5;
 /// Stamps of a clock that is read when a sample is taken scatter by less than this share of an interval.
 constexpr double kEvenJitter = 0.1;
+/// Of the usual interval.
+constexpr double kOffPace = 0.25;
 /// An odd repeated stamp costs nothing.
 constexpr double kFewEqual = 0.01;
 
@@ -33,7 +35,7 @@ Intervals intervalsOf(const std::vector<MessageTime>& times) {
       } else if (interval == 0) {
         ++result.counts.equal;
       } else if (interval <= -kRestartBackstep) {
-        result.counts.set_back_s.push_back(toSeconds(-interval));
+        result.counts.set_back_s.push_back(toSeconds(-interval));  // the usual interval is added when it is known
       } else {
         ++result.counts.backwards;
       }
@@ -48,8 +50,15 @@ void noteIntervals(const std::vector<double>& forward_s, StreamStatistics& stati
     return;
   }
   statistics.interval_s = median(forward_s);
+  for (double& step_s : statistics.set_back_s) {
+    step_s += statistics.interval_s;
+  }
   statistics.jitter_s = 0.5 * (percentile(forward_s, 98.0) - percentile(forward_s, 2.0));
   double covered_s = 0.0;
+  statistics.off_pace = static_cast<std::size_t>(
+      std::count_if(forward_s.begin(), forward_s.end(), [&statistics](double interval_s) {
+        return std::abs(interval_s / statistics.interval_s - 1.0) > kOffPace;
+      }));
   for (const double interval_s : forward_s) {
     if (interval_s > std::max(kGapFactor * statistics.interval_s, kGap_s)) {
       statistics.gaps_s.push_back(interval_s);
@@ -61,11 +70,17 @@ void noteIntervals(const std::vector<double>& forward_s, StreamStatistics& stati
   statistics.rate_hz = covered_s > 0.0 ? usual / covered_s : 0.0;
 }
 
+/// Until a clock is set back: after that it says something else.
 double medianDelay(const std::vector<MessageTime>& times) {
   std::vector<double> delays_s;
+  Nanoseconds before = 0;
   for (const MessageTime& time : times) {
+    if (time.stamp - before <= -kRestartBackstep && time.stamp != 0) {
+      break;
+    }
     if (time.stamp != 0) {
       delays_s.push_back(toSeconds(time.received - time.stamp));
+      before = time.stamp;
     }
   }
   return delays_s.empty() ? 0.0 : median(std::move(delays_s));
@@ -119,14 +134,16 @@ void checkPace(const std::string& topic, const StreamStatistics& statistics, con
                             " Hz are wanted",
                         "choose another rate in the driver"});
   }
-  if (statistics.jitter_s > kEvenJitter * statistics.interval_s) {
-    findings.push_back({needs.corrects_scatter ? Severity::kRemark : Severity::kDoubtful, topic,
+  if (needs.even && statistics.jitter_s > kEvenJitter * statistics.interval_s) {
+    findings.push_back({Severity::kDoubtful, topic,
                         "intervals of the stamps scatter by ±" + decimal(1e3 * statistics.jitter_s, 1) + " ms about " +
                             decimal(1e3 * statistics.interval_s, 1) + " ms",
-                        needs.corrects_scatter
-                            ? "nothing has to be done, they are corrected; a driver that takes the sensor's own time "
-                              "is better"
-                            : "let the driver stamp when the sample was taken; see wheel.stamp_std_s"});
+                        "let the driver stamp when the sample was taken; see wheel.stamp_std_s"});
+  } else if (statistics.off_pace > 0 && statistics.jitter_s <= kEvenJitter * statistics.interval_s) {
+    findings.push_back({Severity::kRemark, topic,
+                        counted(statistics.off_pace, "interval") + " off the pace of " +
+                            decimal(1e3 * statistics.interval_s, 1) + " ms by more than a quarter",
+                        "nothing: single stamps are corrected or left out"});
   }
 }
 

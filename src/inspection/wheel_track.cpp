@@ -16,6 +16,9 @@ constexpr double kLargestRate_radps = 200.0;
 constexpr double kRestShare = 0.04;
 /// What turns in place moves, too: at about this distance from the middle.
 constexpr double kTurnArm_m = 0.25;
+/// Shorter intervals are put together.
+constexpr double kLeast_s = 0.099;
+constexpr double kMergeGap_s = 0.01;
 /// Longer intervals are gaps.
 constexpr double kLongest_s = 2.0;
 
@@ -66,7 +69,37 @@ WheelRow rowOf(const WheelSample& sample, double interval_s, const std::vector<W
   return row;
 }
 
+/// Rows that are shorter than kLeast_s become one: counts of an encoder over a short interval are coarse.
+std::vector<WheelRow> merged(const std::vector<WheelRow>& rows) {
+  std::vector<WheelRow> result;
+  WheelRow sum;
+  double end_s = 0.0;
+  const auto close = [&] {
+    if (sum.interval_s > 0.0) {
+      result.push_back({end_s - 0.5 * sum.interval_s, sum.interval_s, sum.speed / sum.interval_s,
+                        sum.turn / sum.interval_s, sum.largest});
+    }
+    sum = WheelRow();
+  };
+  for (const WheelRow& row : rows) {
+    if (sum.interval_s > 0.0 && row.time_s - 0.5 * row.interval_s > end_s + kMergeGap_s) {
+      close();
+    }
+    sum.speed += row.speed * row.interval_s;
+    sum.turn += row.turn * row.interval_s;
+    sum.largest = std::max(sum.largest, row.largest);
+    sum.interval_s += row.interval_s;
+    end_s = row.time_s + 0.5 * row.interval_s;
+    if (sum.interval_s >= kLeast_s) {
+      close();
+    }
+  }
+  close();
+  return result;
+}
+
 void finish(WheelTrack& track) {
+  track.rows = merged(track.rows);
   std::vector<double> moving;
   std::vector<double> intervals_s;
   for (const WheelRow& row : track.rows) {
@@ -89,6 +122,11 @@ double likeness(const JointRates& rates, std::size_t a, std::size_t b) {
 }
 
 }  // namespace
+
+bool hasSign(const WheelTrack& track) {
+  return std::any_of(track.rows.begin(), track.rows.end(),
+                     [&track](const WheelRow& row) { return row.speed < -track.rest_speed; });
+}
 
 JointRates ratesOf(const JointRecord& record, const std::vector<WheelJoint>& wheels, Nanoseconds origin) {
   JointRates rates;

@@ -55,6 +55,12 @@ std::string complaintOfRateUnit(const std::string& than_what) {
   return "the gyros turn " + than_what + ": in deg/s? the driver has to give rad/s";
 }
 
+std::string complaintOfDirection(bool has_sign) {
+  return std::string("wheels and IMU disagree on the direction: ") +
+         (has_sign ? "" : "the wheels' speed has no sign, ") +
+         "wheels[].sign is wrong, or imu.mount is turned by 180 deg about z";
+}
+
 void InputCheck::Spread::add(const Vector2& value) {
   count += 1.0;
   sum += value;
@@ -168,9 +174,7 @@ void InputCheck::chooseComplaint() {
   } else if (!rate_complaint_.empty()) {
     complaint_ = rate_complaint_;
   } else if (direction_.contradicts()) {
-    complaint_ = std::string("wheels and IMU disagree on the direction: ") +
-                 (direction_.hasSign() ? "" : "the wheels' speed has no sign, ") +
-                 "wheels[].sign is wrong, or imu.mount is turned by 180 deg about z";
+    complaint_ = complaintOfDirection(direction_.hasSign());
   } else {
     complaint_.clear();
   }

@@ -23,6 +23,9 @@ using Findings = std::vector<Finding>;
 /// The worst first; among equals the order stays.
 void sortWorstFirst(Findings& findings);
 
+/// What is said of several subjects alike becomes one finding.
+void mergeAlike(Findings& findings);
+
 /// Exit status: 0 usable, 1 doubtful, 2 not usable.
 int statusOf(const Findings& findings);
 

@@ -15,6 +15,7 @@ struct Mounting {
   double forward_std_rad = 0.0;
   double force_gain = 0.0;  ///< specific force over the wheels' acceleration; 1 when the wheels are in m/s
   double force_gain_std = 0.0;
+  double force_correlation = 0.0;  ///< where it is low, slip of the wheels lowers the gain
   /// Lateral force over speed times heading rate, divided by force_gain; 1 when the gyros are in rad/s.
   double centripetal_ratio = 0.0;
   double centripetal_std = 0.0;
@@ -22,8 +23,10 @@ struct Mounting {
   std::size_t batches_backward = 0;  ///< in which they clearly contradict
 
   bool has_turn = false;
-  double turn_gain = 0.0;  ///< heading rate by the gyros (about up, positive left) over the wheels' turn
-  double turn_gain_std = 0.0;
+  /// The wheels' turn over the heading rate by the gyros (about up, positive left): the effective track where the turn
+  /// is a difference of speeds, about 1 where it is a rate. The gyros are the exact ones: wheels slip.
+  double turn_per_rate = 0.0;
+  double turn_per_rate_std = 0.0;
   Vector3 turn_axis = Vector3::UnitZ();  ///< about which the gyros turn when the wheels say left
   double turn_correlation = 0.0;
 

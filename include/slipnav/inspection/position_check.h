@@ -30,7 +30,7 @@ struct WheelScale {
   double distance_m = 0.0;
 };
 
-/// Pieces of 10 m: the way between two positions against that of the wheels, where both are nearly straight.
+/// Over pieces of 10 m, the way along chords of a meter against that of the wheels; the median.
 WheelScale wheelScale(const TruthTrack& positions, const WheelTrack& wheels);
 
 void checkWheelScale(const std::string& topic, const WheelScale& scale, const WheelTrack& wheels, Findings& findings);

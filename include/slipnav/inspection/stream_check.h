@@ -15,8 +15,9 @@ struct StreamStatistics {
   std::size_t zero = 0;           ///< stamps that are not set
   std::size_t equal = 0;          ///< stamps equal to that of the message before
   std::size_t backwards = 0;      ///< stamps before that of the message before, by less than a second
-  std::vector<double> set_back_s; ///< steps back by a second or more
+  std::vector<double> set_back_s; ///< by how much the clock was set back, a second or more
   std::vector<double> gaps_s;     ///< intervals of more than three usual ones and half a second
+  std::size_t off_pace = 0;       ///< intervals that differ from the usual one by more than a quarter
   double interval_s = 0.0;        ///< median
   double rate_hz = 0.0;           ///< messages over the time without gaps
   double jitter_s = 0.0;          ///< half of the span from the 2nd to the 98th percentile of the intervals
@@ -39,7 +40,7 @@ std::vector<MessageTime> timesOf(const Record& record) {
 struct StreamNeeds {
   double least_rate_hz = 0.0;  ///< below, it is of little use
   double most_rate_hz = 1e9;
-  bool corrects_scatter = false;  ///< stamps that scatter or bunch are corrected by the estimator (see ImuClock)
+  bool even = false;  ///< intervals that scatter do harm, and nobody else looks at them
 };
 
 void checkStream(const std::string& topic, const StreamStatistics& statistics, const StreamNeeds& needs,

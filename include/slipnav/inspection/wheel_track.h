@@ -29,6 +29,9 @@ struct WheelTrack {
   std::vector<WheelRow> rows;   ///< in order of time
 };
 
+/// Whether the speed is ever negative.
+bool hasSign(const WheelTrack& track);
+
 /// Rates of each wheel as the messages have them, no signs changed, and what the decoder had to say.
 struct JointRates {
   std::vector<WheelSample> samples;   ///< stamps relative to the origin, in continuous time
