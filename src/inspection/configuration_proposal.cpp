@@ -35,7 +35,7 @@ class Proposal {
             "# say (imu.noise, imu.input.sampling, imu.mount.x_m to z_m).\n";
     writeTopics();
     writeFrames();
-    writeMount();
+    writeImu();
     writeWheels();
     writeWheelSource();
     writeStart();
@@ -79,16 +79,38 @@ class Proposal {
     }
   }
 
-  void writeMount() {
+  /// Both under one key.
+  void writeImu() {
+    const std::string mount = mountLine();
+    const std::string noise = noiseLines();
+    yaml_ += mount.empty() && noise.empty() ? "" : "imu:\n" + mount + noise;
+  }
+
+  /// What a data sheet may be too modest about.
+  std::string noiseLines() const {
+    const LeastBias bias = leastBias(found_.rest);
+    std::string lines;
+    if (bias.force_mps2 / kMicroG > ImuNoiseParams{}.accel_bias_std_ug) {
+      lines += "    accel_bias_std_ug: " + decimal(bias.force_mps2 / kMicroG, 0) + "  # at rest: " +
+               decimal(found_.rest.force.norm(), 2) + " m/s²\n";
+    }
+    const double rate_deg_per_h = 3600.0 * radToDeg(bias.rate_radps);
+    if (rate_deg_per_h > ImuNoiseParams{}.gyro_bias_std_deg_per_h) {
+      lines += "    gyro_bias_std_deg_per_h: " + decimal(rate_deg_per_h, 0) + "  # at rest\n";
+    }
+    return lines.empty() ? "" : "  noise:\n" + lines;
+  }
+
+  std::string mountLine() {
     const Mounting& mounting = found_.mounting;
     yaml_ += "\n";
     if (!mounting.is_sure) {
       comment("imu.mount: this drive does not tell it");
-      return;
+      return "";
     }
     if (mounting.has_turn && mounting.turn_per_rate < 0.0) {
       comment("imu.mount: gyros and wheels contradict each other");
-      return;
+      return "";
     }
     const std::string measured = decimal(radToDeg(mounting.left_over_rad), 1) + " deg left over, heading ± " +
                                  decimal(radToDeg(mounting.forward_std_rad), 1) + " deg (1 sigma)";
@@ -96,12 +118,12 @@ class Proposal {
     comment(by_tf ? "pose by /tf_static or /tf; the drive agrees: " + axesText(mounting.nearest) + ", " + measured
                   : "quarter turn by gravity, turns and accelerations: " + axesText(mounting.nearest) + ", " + measured);
     const MountParams mount = by_tf ? *options_.tf : toMountParams(mounting.nearest);
-    yaml_ += "imu:\n  mount: {";
+    std::string line = "  mount: {";
     if (by_tf) {
-      yaml_ += "x_m: " + decimal(mount.x_m, 4) + ", y_m: " + decimal(mount.y_m, 4) + ", z_m: " +
+      line += "x_m: " + decimal(mount.x_m, 4) + ", y_m: " + decimal(mount.y_m, 4) + ", z_m: " +
                decimal(mount.z_m, 4) + ", ";
     }
-    yaml_ += "roll_deg: " + decimal(mount.roll_deg, by_tf ? 3 : 0) + ", pitch_deg: " +
+    return line + "roll_deg: " + decimal(mount.roll_deg, by_tf ? 3 : 0) + ", pitch_deg: " +
              decimal(mount.pitch_deg, by_tf ? 3 : 0) + ", yaw_deg: " + decimal(mount.yaw_deg, by_tf ? 3 : 0) + "}\n";
   }
 
@@ -127,30 +149,38 @@ class Proposal {
     return 0.0;
   }
 
+  /// Between left and right wheels [m]; 0 when it is not known, and the heading rate of the wheels is not used then.
+  double track(double radius_m) {
+    const Mounting& mounting = found_.mounting;
+    if (!mounting.has_turn || mounting.turn_per_rate <= 0.0) {
+      comment("the drive does not tell the track: with y_m 0 the wheels say nothing of turns; measure it");
+      return 0.0;
+    }
+    const double track_m = (found_.track.in_meters ? 1.0 : radius_m) * mounting.turn_per_rate;
+    const double share = mounting.turn_per_rate_std / mounting.turn_per_rate;
+    comment("track of " + decimal(track_m, 3) + " m by the gyros, ± " + decimal(100.0 * share, 1) +
+            " % (1 sigma), scrub included" + (share > kSureTrack ? ": measure it" : ""));
+    return track_m;
+  }
+
   void writeWheels() {
     if (usesOdometry() || found_.wheels.empty()) {
       return;
     }
     std::string radius_reason;
     const double radius_m = radius(radius_reason);
-    const Mounting& mounting = found_.mounting;
     const bool sides = std::all_of(found_.wheels.begin(), found_.wheels.end(),
                                    [](const WheelJoint& wheel) { return wheel.side != Side::kUnknown; });
     yaml_ += "\n";
-    if (radius_m <= 0.0 || !sides || !mounting.has_turn || mounting.turn_per_rate <= 0.0) {
-      comment("wheels: names and signs are known, but not " +
-              std::string(radius_m <= 0.0 ? "the radius: check --wheel-radius M" : "the track, or on which side each is"));
+    if (radius_m <= 0.0) {
+      comment("wheels: their names and signs are known, but not their radius: check --wheel-radius M");
       return;
     }
-    const double unit = found_.track.in_meters ? 1.0 : radius_m;
-    const double track_m = unit * mounting.turn_per_rate;
-    const double share = mounting.turn_per_rate_std / mounting.turn_per_rate;
     comment(radius_reason + "; names and sides by their names, signs by how they turn");
-    comment("track of " + decimal(track_m, 3) + " m by the gyros, ± " + decimal(100.0 * share, 1) +
-            " % (1 sigma), scrub included" + (share > kSureTrack ? ": measure it" : ""));
+    const double track_m = sides ? track(radius_m) : 0.0;
     yaml_ += "wheels:\n";
     for (const WheelJoint& wheel : found_.wheels) {
-      const double y_m = wheel.side == Side::kLeft ? 0.5 * track_m : -0.5 * track_m;
+      const double y_m = (wheel.side == Side::kLeft ? 0.5 : -0.5) * track_m;
       yaml_ += "  - {name: " + yamlScalar(wheel.name) + ", radius_m: " + decimal(radius_m, 4) + ", x_m: 0.0, y_m: " +
                decimal(y_m, 3) + ", sign: " + decimal(wheel.sign, 1) + "}\n";
     }

@@ -21,9 +21,9 @@ constexpr double kLargestStd_rad = 0.35;
 constexpr double kHalfQuarter_rad = 0.25 * kPi;
 /// A batch speaks clearly when force and wheels correlate by more.
 constexpr double kClear = 0.6;
-/// Its sign says whether anything is upside down: to be sure of.
-constexpr double kTurnSigmas = 5.0;
 constexpr double kSigmas = 3.0;
+/// Sine of a pitch of 90° less this.
+constexpr double kUpright = 1e-9;
 
 /// Axes across `up`: their product is up.
 struct Plane {
@@ -169,7 +169,7 @@ void regressTurn(const MotionTable& table, Mounting& mounting) {
     const RegressionResult result = regress(problem);
     mounting.turn_per_rate = result.estimate(0);
     mounting.turn_per_rate_std = std::sqrt(std::max(result.covariance(0, 0), 0.0));
-    mounting.has_turn = std::abs(mounting.turn_per_rate) > kTurnSigmas * mounting.turn_per_rate_std;
+    mounting.has_turn = std::abs(mounting.turn_per_rate) > kSigmas * mounting.turn_per_rate_std;
   } catch (const std::invalid_argument&) {
     mounting.has_turn = false;  // the vehicle does not turn
   }
@@ -250,7 +250,11 @@ std::vector<Matrix3> quarterTurns() {
 }
 
 MountParams toMountParams(const Matrix3& C_sensor_to_flu) {
-  const Vector3 angles_rad = eulerFrom_q_b_to_n(Quaternion(C_sensor_to_flu));
+  Vector3 angles_rad = eulerFrom_q_b_to_n(Quaternion(C_sensor_to_flu));
+  if (std::abs(C_sensor_to_flu(2, 0)) > 1.0 - kUpright) {  // roll and yaw turn about the same axis then
+    angles_rad.x() = 0.0;
+    angles_rad.z() = std::atan2(-C_sensor_to_flu(0, 1), C_sensor_to_flu(1, 1));
+  }
   MountParams params;
   params.roll_deg = radToDeg(angles_rad.x());
   params.pitch_deg = radToDeg(angles_rad.y());

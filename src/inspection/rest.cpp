@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace slipnav {
 namespace {
@@ -14,7 +15,15 @@ constexpr double kDifferenceFactor = 1.4142135623730951;
 /// Not still: somebody moves the vehicle, or an engine shakes it.
 constexpr double kStillForce_mps2 = 0.3;
 constexpr double kStillRate_radps = 0.03;
-constexpr double kLargeBias_radps = 0.003;
+constexpr double kLargeBias_radps = 0.001;
+/// The gyros of the cheapest sensors are not further off: 5 °/s.
+constexpr double kLargestGyroBias_radps = 0.087;
+constexpr double kBlock_s = 0.5;
+/// Gravity on Earth is within it.
+constexpr double kGravity_mps2 = 9.806;
+constexpr double kGravitySpan_mps2 = 0.03;
+/// Beyond, it is another unit or another planet.
+constexpr double kLargestBias_mps2 = 1.0;
 
 class Deviation {
  public:
@@ -32,6 +41,16 @@ class Deviation {
 bool isIn(const std::vector<StillTime>& rests, double from_s, double to_s) {
   return std::any_of(rests.begin(), rests.end(),
                      [=](const StillTime& rest) { return to_s >= rest.begin_s && from_s <= rest.end_s; });
+}
+
+/// A vehicle that turns on the spot has a forward speed of zero, too.
+bool isTurning(const ImuTrack& imu, const StillTime& rest) {
+  const Vector3 mean = imu.meanRate(rest.begin_s, rest.end_s);
+  bool changes = false;
+  for (double t_s = rest.begin_s; t_s + kBlock_s <= rest.end_s; t_s += kBlock_s) {
+    changes = changes || (imu.meanRate(t_s, t_s + kBlock_s) - mean).norm() > kStillRate_radps;
+  }
+  return changes || mean.norm() > kLargestGyroBias_radps;
 }
 
 void noteRests(const ImuTrack& imu, RestPicture& picture) {
@@ -119,12 +138,24 @@ std::vector<StillTime> restsOf(const WheelTrack& wheels) {
   return rests;
 }
 
-RestPicture pictureOf(const ImuTrack& imu, std::vector<StillTime> rests) {
+RestPicture pictureOf(const ImuTrack& imu, const std::vector<StillTime>& rests) {
   RestPicture picture;
-  picture.rests = std::move(rests);
+  std::copy_if(rests.begin(), rests.end(), std::back_inserter(picture.rests),
+               [&imu](const StillTime& rest) { return !isTurning(imu, rest); });
   noteRests(imu, picture);
   noteDriving(imu, picture);
   return picture;
+}
+
+LeastBias leastBias(const RestPicture& picture) {
+  LeastBias bias;
+  if (!picture.known) {
+    return bias;
+  }
+  const double off_mps2 = std::abs(picture.force.norm() - kGravity_mps2);
+  bias.force_mps2 = off_mps2 > kGravitySpan_mps2 && off_mps2 < kLargestBias_mps2 ? off_mps2 : 0.0;
+  bias.rate_radps = picture.rate.norm() > kLargeBias_radps ? picture.rate.norm() : 0.0;
+  return bias;
 }
 
 void checkRests(const std::string& topic, const RestPicture& picture, Findings& findings) {
@@ -135,11 +166,18 @@ void checkRests(const std::string& topic, const RestPicture& picture, Findings& 
     return;
   }
   describeRests(topic, picture, findings);
-  if (picture.rate.norm() > kLargeBias_radps) {
+  const LeastBias bias = leastBias(picture);
+  if (bias.rate_radps > 0.0) {
     findings.push_back({Severity::kRemark, topic,
-                        "at rest the gyros turn by " + decimal(radToDeg(picture.rate.norm()), 2) + " °/s",
-                        "imu.noise.gyro_bias_std_deg_per_h has to be at least half of " +
-                            decimal(3600.0 * radToDeg(picture.rate.norm()), 0)});
+                        "at rest the gyros turn by " + decimal(radToDeg(bias.rate_radps), 2) + " °/s",
+                        "imu.noise.gyro_bias_std_deg_per_h not below " +
+                            decimal(3600.0 * radToDeg(bias.rate_radps), 0)});
+  }
+  if (bias.force_mps2 > 0.0) {
+    findings.push_back({Severity::kRemark, topic,
+                        "at rest the specific force is " + decimal(picture.force.norm(), 2) + " m/s²: a bias of " +
+                            decimal(bias.force_mps2, 2) + " m/s² or more",
+                        "imu.noise.accel_bias_std_ug not below " + decimal(bias.force_mps2 / kMicroG, 0)});
   }
 }
 

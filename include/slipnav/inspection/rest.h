@@ -30,9 +30,17 @@ struct RestPicture {
   Vector3 driving_rate_std = Vector3::Zero();
 };
 
-RestPicture pictureOf(const ImuTrack& imu, std::vector<StillTime> rests);
+/// @param rests of the wheels; those in which the gyros turn are left out
+RestPicture pictureOf(const ImuTrack& imu, const std::vector<StillTime>& rests);
 
-/// @param at_start_s how long the vehicle stands before it drives for the first time
+/// What the sensor's bias is at least, by what it says at rest; 0 where nothing tells it.
+struct LeastBias {
+  double force_mps2 = 0.0;  ///< length of the specific force less that of gravity, where it is more than gravity varies
+  double rate_radps = 0.0;
+};
+
+LeastBias leastBias(const RestPicture& picture);
+
 void checkRests(const std::string& topic, const RestPicture& picture, Findings& findings);
 
 }  // namespace slipnav
