@@ -110,7 +110,8 @@ Signals sample(const ImuTrack& imu, const WheelTrack& wheels, const Vector3& up)
   const Vector3 second = up.cross(first);
   const WheelInterpolation interpolation(wheels);
   Signals signals;
-  for (double t_s = imu.begin(); t_s < imu.end(); t_s += kStep_s) {
+  const double end_s = std::min(imu.end(), imu.begin() + kLongestDrive_s);
+  for (double t_s = imu.begin(); t_s < end_s; t_s += kStep_s) {
     const Vector3 force = imu.meanForce(t_s - 2.0 * kStep_s, t_s + 2.0 * kStep_s);
     signals.imu_turn.push_back(up.dot(imu.meanRate(t_s - kStep_s, t_s + kStep_s)));
     signals.imu_first.push_back(first.dot(force));

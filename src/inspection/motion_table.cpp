@@ -106,8 +106,9 @@ MotionTable motionTable(const ImuTrack& imu, const WheelTrack& wheels, const Res
   const Vector3 bias = biasOf(imu, rest);
   CarriedGravity gravity(imu, rest, bias);
   const WheelInterpolation interpolation(wheels);
+  const double end_s = std::min(imu.end(), imu.begin() + kLongestDrive_s);
   std::size_t batch = 0;
-  for (double start_s = imu.begin(); start_s + kBatch_s < imu.end(); start_s += kBatch_s, ++batch) {
+  for (double start_s = imu.begin(); start_s + kBatch_s < end_s; start_s += kBatch_s, ++batch) {
     gravity.restart(start_s);
     for (double t_s = start_s + 0.5 * kWindow_s; t_s + 0.5 * kWindow_s <= start_s + kBatch_s + 1e-9; t_s += kStep_s) {
       const double from_s = t_s - 0.5 * kWindow_s;

@@ -124,6 +124,9 @@ std::vector<StillTime> restsOf(const WheelTrack& wheels) {
     is_open = false;
   };
   for (const WheelRow& row : wheels.rows) {
+    if (is_open && row.time_s - open.end_s > kShortest_s) {
+      close();  // nobody saw what happened between
+    }
     if (row.largest > wheels.rest_speed) {
       close();
       continue;

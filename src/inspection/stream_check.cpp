@@ -15,6 +15,8 @@ constexpr double kGap_s = 0.5;
 constexpr double kEvenJitter = 0.1;
 /// Of the usual interval.
 constexpr double kOffPace = 0.25;
+/// A clock that is ahead by so much more than messages have waited was set.
+constexpr double kLongestJump_s = 60.0;
 /// An odd repeated stamp costs nothing.
 constexpr double kFewEqual = 0.01;
 
@@ -170,16 +172,20 @@ std::vector<double> continuousTimes(const std::vector<MessageTime>& times, Nanos
   std::vector<double> result;
   result.reserve(times.size());
   double offset_s = 0.0;
-  Nanoseconds before = 0;
+  const MessageTime* before = nullptr;
   for (const MessageTime& time : times) {
     if (time.stamp == 0) {
       result.push_back(toSeconds(time.received - origin));
       continue;
     }
-    if (before != 0 && time.stamp - before <= -kRestartBackstep) {
-      offset_s += toSeconds(before - time.stamp) + usual_s;
+    if (before != nullptr) {
+      const double stamps_s = toSeconds(time.stamp - before->stamp);
+      const double received_s = toSeconds(time.received - before->received);
+      if (stamps_s <= -toSeconds(kRestartBackstep) || stamps_s - received_s > kLongestJump_s) {
+        offset_s += std::clamp(received_s, std::min(usual_s, kLongestJump_s), kLongestJump_s) - stamps_s;
+      }
     }
-    before = time.stamp;
+    before = &time;
     result.push_back(toSeconds(time.stamp - origin) + offset_s);
   }
   return result;

@@ -10,6 +10,9 @@
 
 namespace slipnav {
 
+/// Of longer recordings the beginning is looked at [s].
+inline constexpr double kLongestDrive_s = 86400.0;
+
 /// Means over a window of 0.6 s, in the sensor's own axes.
 struct MotionRow {
   double time_s = 0.0;

@@ -46,7 +46,8 @@ struct StreamNeeds {
 void checkStream(const std::string& topic, const StreamStatistics& statistics, const StreamNeeds& needs,
                  Findings& findings);
 
-/// Stamps [s] in a time that goes on where a clock is set back; the time of receipt for those that are not set.
+/// Stamps [s] in a time that goes on where a clock is set, by when messages came; the time of receipt for stamps that
+/// are not set.
 std::vector<double> continuousTimes(const std::vector<MessageTime>& times, Nanoseconds origin);
 
 }  // namespace slipnav
