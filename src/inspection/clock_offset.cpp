@@ -79,7 +79,8 @@ class Shifts {
       }
     }
     offset.known = offset.correlation > kLeastCorrelation && next < kClearly * offset.correlation;
-    offset.wheels_ahead_s = kStep_s * (static_cast<double>(peak) - kLargestShift + vertex(static_cast<std::size_t>(peak)));
+    offset.wheels_ahead_s =
+        kStep_s * (static_cast<double>(peak) - kLargestShift + vertex(static_cast<std::size_t>(peak)));
     return offset;
   }
 
@@ -139,7 +140,8 @@ ClockOffset correlateClocks(const ImuTrack& imu, const WheelTrack& wheels, const
       return by_turns;
     }
   }
-  return Shifts({highPass(signals.imu_first), highPass(signals.imu_second)}, highPass(signals.wheel_acceleration)).best();
+  return Shifts({highPass(signals.imu_first), highPass(signals.imu_second)}, highPass(signals.wheel_acceleration))
+      .best();
 }
 
 }  // namespace slipnav

@@ -31,7 +31,8 @@ class Proposal {
   Proposal(const Inspection& inspection, const InspectionOptions& options) : found_(inspection), options_(options) {}
 
   std::string text(const std::string& source) {
-    yaml_ = "# From " + source + ", by check. What is not here keeps its default: give what a data sheet and a ruler\n" +
+    yaml_ = "# From " + source +
+            ", by check. What is not here keeps its default: give what a data sheet and a ruler\n" +
             "# say (imu.noise, imu.input.sampling, imu.mount.x_m to z_m).\n";
     writeTopics();
     writeFrames();
@@ -91,8 +92,8 @@ class Proposal {
     const LeastBias bias = leastBias(found_.rest);
     std::string lines;
     if (bias.force_mps2 / kMicroG > ImuNoiseParams{}.accel_bias_std_ug) {
-      lines += "    accel_bias_std_ug: " + decimal(bias.force_mps2 / kMicroG, 0) + "  # at rest: " +
-               decimal(found_.rest.force.norm(), 2) + " m/s²\n";
+      lines += "    accel_bias_std_ug: " + decimal(bias.force_mps2 / kMicroG, 0) +
+               "  # at rest: " + decimal(found_.rest.force.norm(), 2) + " m/s²\n";
     }
     const double rate_deg_per_h = 3600.0 * radToDeg(bias.rate_radps);
     if (rate_deg_per_h > ImuNoiseParams{}.gyro_bias_std_deg_per_h) {
@@ -115,16 +116,18 @@ class Proposal {
     const std::string measured = decimal(radToDeg(mounting.left_over_rad), 1) + " deg left over, heading ± " +
                                  decimal(radToDeg(mounting.forward_std_rad), 1) + " deg (1 sigma)";
     const bool by_tf = options_.tf && isNear(toRotation(*options_.tf));
-    comment(by_tf ? "pose by /tf_static or /tf; the drive agrees: " + axesText(mounting.nearest) + ", " + measured
-                  : "quarter turn by gravity, turns and accelerations: " + axesText(mounting.nearest) + ", " + measured);
+    comment(by_tf
+                ? "pose by /tf_static or /tf; the drive agrees: " + axesText(mounting.nearest) + ", " + measured
+                : "quarter turn by gravity, turns and accelerations: " + axesText(mounting.nearest) + ", " + measured);
     const MountParams mount = by_tf ? *options_.tf : toMountParams(mounting.nearest);
     std::string line = "  mount: {";
     if (by_tf) {
-      line += "x_m: " + decimal(mount.x_m, 4) + ", y_m: " + decimal(mount.y_m, 4) + ", z_m: " +
-               decimal(mount.z_m, 4) + ", ";
+      line += "x_m: " + decimal(mount.x_m, 4) + ", y_m: " + decimal(mount.y_m, 4) + ", z_m: " + decimal(mount.z_m, 4) +
+              ", ";
     }
-    return line + "roll_deg: " + decimal(mount.roll_deg, by_tf ? 3 : 0) + ", pitch_deg: " +
-             decimal(mount.pitch_deg, by_tf ? 3 : 0) + ", yaw_deg: " + decimal(mount.yaw_deg, by_tf ? 3 : 0) + "}\n";
+    return line + "roll_deg: " + decimal(mount.roll_deg, by_tf ? 3 : 0) +
+           ", pitch_deg: " + decimal(mount.pitch_deg, by_tf ? 3 : 0) +
+           ", yaw_deg: " + decimal(mount.yaw_deg, by_tf ? 3 : 0) + "}\n";
   }
 
   bool isNear(const Matrix3& other) const {
@@ -181,8 +184,8 @@ class Proposal {
     yaml_ += "wheels:\n";
     for (const WheelJoint& wheel : found_.wheels) {
       const double y_m = (wheel.side == Side::kLeft ? 0.5 : -0.5) * track_m;
-      yaml_ += "  - {name: " + yamlScalar(wheel.name) + ", radius_m: " + decimal(radius_m, 4) + ", x_m: 0.0, y_m: " +
-               decimal(y_m, 3) + ", sign: " + decimal(wheel.sign, 1) + "}\n";
+      yaml_ += "  - {name: " + yamlScalar(wheel.name) + ", radius_m: " + decimal(radius_m, 4) +
+               ", x_m: 0.0, y_m: " + decimal(y_m, 3) + ", sign: " + decimal(wheel.sign, 1) + "}\n";
     }
   }
 
@@ -226,7 +229,8 @@ class Proposal {
     yaml_ += "  heading_deg: 90\n";
     if (found_.roles.fix != nullptr) {
       const auto& samples = found_.roles.fix->samples;
-      const auto first = std::find_if(samples.begin(), samples.end(), [](const RawFixSample& s) { return s.is_usable; });
+      const auto first =
+          std::find_if(samples.begin(), samples.end(), [](const RawFixSample& s) { return s.is_usable; });
       if (first != samples.end()) {
         yaml_ += "  latitude_deg: " + formatNumber(first->fix.latitude_deg) + "  # first fix\n";
         yaml_ += "  longitude_deg: " + formatNumber(first->fix.longitude_deg) + "\n";

@@ -87,8 +87,8 @@ class Collector {
   void noteChanges() {
     const double least = picture_.least_position_rad;
     const double greatest = picture_.greatest_position_rad;
-    const bool within = picture_.has_position && greatest - least <= kTurn_rad + kSlack_rad &&
-                        greatest - least > 0.9 * kTurn_rad;
+    const bool within =
+        picture_.has_position && greatest - least <= kTurn_rad + kSlack_rad && greatest - least > 0.9 * kTurn_rad;
     std::vector<double> changes;
     double product = 0.0;
     double energy = 0.0;
@@ -123,9 +123,10 @@ std::string label(const WheelJoint& wheel) {
 void checkVelocity(const std::string& subject, const EncoderPicture& picture, Findings& findings) {
   const bool moves = picture.turned_rad > kLeastTurned_rad;
   if (picture.has_velocity && picture.velocity_not_finite > 0) {
-    findings.push_back({Severity::kDoubtful, subject,
-                        std::to_string(picture.velocity_not_finite) + " velocities are not finite numbers",
-                        picture.has_position ? "positions are used instead; look at the driver" : "look at the driver"});
+    findings.push_back(
+        {Severity::kDoubtful, subject,
+         std::to_string(picture.velocity_not_finite) + " velocities are not finite numbers",
+         picture.has_position ? "positions are used instead; look at the driver" : "look at the driver"});
   } else if (picture.has_velocity && picture.velocity_always_zero && moves) {
     findings.push_back({Severity::kDoubtful, subject, "velocities are always 0 while positions move",
                         "positions are used instead; a driver without velocities leaves the array empty"});

@@ -22,9 +22,8 @@ const char* nameOf(Severity severity) {
 }
 
 std::size_t countOf(const Findings& findings, Severity severity) {
-  return static_cast<std::size_t>(
-      std::count_if(findings.begin(), findings.end(),
-                    [severity](const Finding& finding) { return finding.severity == severity; }));
+  return static_cast<std::size_t>(std::count_if(
+      findings.begin(), findings.end(), [severity](const Finding& finding) { return finding.severity == severity; }));
 }
 
 }  // namespace
@@ -60,11 +59,14 @@ std::string toText(const Findings& findings) {
   std::ostringstream out;
   for (const Finding& finding : findings) {
     out << std::left << std::setw(9) << nameOf(finding.severity) << finding.subject << ": " << finding.text << "\n"
-        << std::setw(9) << "" << "-> " << finding.remedy << "\n";
+        << std::setw(9) << ""
+        << "-> " << finding.remedy << "\n";
   }
   const std::size_t unusable = countOf(findings, Severity::kUnusable);
   const std::size_t doubtful = countOf(findings, Severity::kDoubtful);
-  out << (unusable > 0 ? "not usable as it is: " : doubtful > 0 ? "usable with doubt: " : "usable: ")
+  out << (unusable > 0   ? "not usable as it is: "
+          : doubtful > 0 ? "usable with doubt: "
+                         : "usable: ")
       << counted(unusable, "reason") << " against it, " << counted(doubtful, "doubt") << "\n";
   return out.str();
 }

@@ -98,8 +98,7 @@ void checkForward(const std::string& topic, const Mounting& mounting, const Whee
     return;
   }
   const bool known = mounting.force_gain_std < 0.25 * mounting.force_gain && mounting.force_correlation > kClearForce;
-  if (wheels.in_meters && known &&
-      (mounting.force_gain > kLargestGain || mounting.force_gain < kLeastGain)) {
+  if (wheels.in_meters && known && (mounting.force_gain > kLargestGain || mounting.force_gain < kLeastGain)) {
     findings.push_back({Severity::kDoubtful, wheels.topic,
                         "the accelerometer sees " + decimal(mounting.force_gain, 2) + " ± " +
                             decimal(mounting.force_gain_std, 2) + " times the acceleration of the wheels",
@@ -125,14 +124,14 @@ void compareWithConfiguration(const std::string& topic, const Mounting& mounting
                         "or imu.mount.yaw_deg"});
   } else if (!upright || !straight) {
     const MountParams found = toMountParams(mounting.nearest);
-    findings.push_back({Severity::kUnusable, topic,
-                        "imu.mount does not say how the sensor is turned: what it calls up is off by " +
-                            decimal(radToDeg(tilt_rad), 0) + " deg, forward by " +
-                            decimal(radToDeg(std::abs(turn_rad)), 0) + " deg",
-                        mounting.is_sure ? "imu: {mount: {roll_deg: " + decimal(found.roll_deg, 0) + ", pitch_deg: " +
-                                               decimal(found.pitch_deg, 0) + ", yaw_deg: " +
-                                               decimal(found.yaw_deg, 0) + "}}, by this drive"
-                                         : "give the angles of the sensor in the vehicle"});
+    findings.push_back(
+        {Severity::kUnusable, topic,
+         "imu.mount does not say how the sensor is turned: what it calls up is off by " +
+             decimal(radToDeg(tilt_rad), 0) + " deg, forward by " + decimal(radToDeg(std::abs(turn_rad)), 0) + " deg",
+         mounting.is_sure
+             ? "imu: {mount: {roll_deg: " + decimal(found.roll_deg, 0) + ", pitch_deg: " + decimal(found.pitch_deg, 0) +
+                   ", yaw_deg: " + decimal(found.yaw_deg, 0) + "}}, by this drive"
+             : "give the angles of the sensor in the vehicle"});
   }
 }
 
@@ -155,7 +154,8 @@ void checkImuMeasurements(const ImuRecord& record, Findings& findings) {
         return !sample.specific_force.allFinite() || !sample.angular_rate.allFinite();
       }));
   if (broken > 0) {
-    findings.push_back({Severity::kDoubtful, record.topic, counted(broken, "sample") + " with numbers that are not finite",
+    findings.push_back({Severity::kDoubtful, record.topic,
+                        counted(broken, "sample") + " with numbers that are not finite",
                         "they are left out; look at the driver"});
   }
 }
@@ -202,8 +202,8 @@ void checkMounting(const std::string& topic, const Mounting& mounting, const Whe
                         "the sensor is mounted " + axesText(mounting.nearest) + " (roll " + decimal(found.roll_deg, 0) +
                             ", pitch " + decimal(found.pitch_deg, 0) + ", yaw " + decimal(found.yaw_deg, 0) +
                             " deg); " + decimal(radToDeg(mounting.left_over_rad), 1) +
-                            " deg are left over, heading known to ±" +
-                            decimal(radToDeg(mounting.forward_std_rad), 1) + " deg (1σ)",
+                            " deg are left over, heading known to ±" + decimal(radToDeg(mounting.forward_std_rad), 1) +
+                            " deg (1σ)",
                         mounting.left_over_rad > kTiltWorthSaying_rad
                             ? "measure the rest of the angles, or let ./run calibrate do it from a drive with truth"
                             : "nothing, if imu.mount says the same"});

@@ -230,8 +230,7 @@ class Inspector {
       }
     }
     if (!wrong.empty()) {
-      say(Severity::kUnusable, topic,
-          "turn against '" + by_data.front().name + "' by their configured signs: " + wrong,
+      say(Severity::kUnusable, topic, "turn against '" + by_data.front().name + "' by their configured signs: " + wrong,
           "wheels[].sign: -1 where an encoder counts backwards when the vehicle drives forward");
     }
   }
@@ -258,8 +257,7 @@ class Inspector {
     const double apart_s = imu_statistics_.delay_s - statistics.delay_s;
     const bool known = imu_statistics_.zero == 0 && statistics.zero == 0 && statistics.messages > 0;
     if (known && std::abs(apart_s) > kApart_s) {
-      say(Severity::kUnusable, topic,
-          "by when messages came, " + clocksApart(result_.roles.imu->topic, topic, apart_s),
+      say(Severity::kUnusable, topic, "by when messages came, " + clocksApart(result_.roles.imu->topic, topic, apart_s),
           "synchronise the clocks (chrony); for a receiver in GPS time see initialization.fix_stamp_offset_s");
     }
   }
@@ -289,8 +287,8 @@ class Inspector {
     for (const WheelRow& row : result_.track.rows) {
       const double stamp_s = row.time_s + 0.5 * row.interval_s - ahead_s;
       for (; next < imu.size() && imu.times()[next] <= stamp_s; ++next) {
-        check.push(ImuSample{fromSeconds(imu.times()[next]), C_sensor_to_b * imu.force(next),
-                             C_sensor_to_b * imu.rate(next)});
+        check.push(
+            ImuSample{fromSeconds(imu.times()[next]), C_sensor_to_b * imu.force(next), C_sensor_to_b * imu.rate(next)});
         said = said.empty() ? check.complaint() : said;
       }
       WheelMotion motion = toWheelMotion(SpeedSample{fromSeconds(stamp_s), row.speed});

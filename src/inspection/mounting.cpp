@@ -128,7 +128,8 @@ void estimateForward(const std::vector<std::vector<MotionRow>>& batches, Mountin
   mounting.forward = plane.toVector(direction);
   BatchSums all;
   for (const BatchSums& batch : sums) {
-    const double likeness = (batch.product * std::conj(direction)).real() / std::sqrt(batch.motion * batch.force + 1e-12);
+    const double likeness =
+        (batch.product * std::conj(direction)).real() / std::sqrt(batch.motion * batch.force + 1e-12);
     mounting.batches_forward += likeness > kClear ? 1 : 0;
     mounting.batches_backward += likeness < -kClear ? 1 : 0;
     all.motion += batch.motion;
@@ -139,8 +140,8 @@ void estimateForward(const std::vector<std::vector<MotionRow>>& batches, Mountin
   const auto contradict = static_cast<double>(mounting.batches_backward);
   const bool has_sign = mounting.force_gain > kSigmas * mounting.force_gain_std ||
                         agree - contradict >= kSigmas * std::sqrt(agree + contradict + 1.0);  // as of a coin
-  mounting.has_forward = static_cast<double>(batches.size()) >= kLeastBatches &&
-                         mounting.forward_std_rad < kLargestStd_rad && has_sign;
+  mounting.has_forward =
+      static_cast<double>(batches.size()) >= kLeastBatches && mounting.forward_std_rad < kLargestStd_rad && has_sign;
 }
 
 /// Lateral force against speed times heading rate alone.

@@ -52,8 +52,9 @@ void checkSolutions(const FixRecord& record, Findings& findings) {
                         "they are left out: the receiver has no fix yet; let its driver say so"});
   }
   if (unknown > 0) {
-    findings.push_back({Severity::kDoubtful, record.topic, std::to_string(unknown) + of + " have no covariance",
-                        "5 m horizontally and 10 m vertically are taken (1σ); let the driver give what the receiver says"});
+    findings.push_back(
+        {Severity::kDoubtful, record.topic, std::to_string(unknown) + of + " have no covariance",
+         "5 m horizontally and 10 m vertically are taken (1σ); let the driver give what the receiver says"});
   }
 }
 
@@ -75,10 +76,10 @@ void checkQuality(const FixRecord& record, Findings& findings) {
   if (worst > kMixed * best && worst > kPoor_m) {
     const auto poor =
         std::count_if(sigmas.begin(), sigmas.end(), [best](double sigma) { return sigma > kMixed * best; });
-    findings.push_back({Severity::kDoubtful, record.topic,
-                        "fixes of mixed quality, " + span + ": " +
-                            std::to_string(poor) + " of them far worse than the others",
-                        "each counts by its covariance; wait for the receiver to settle before driving"});
+    findings.push_back(
+        {Severity::kDoubtful, record.topic,
+         "fixes of mixed quality, " + span + ": " + std::to_string(poor) + " of them far worse than the others",
+         "each counts by its covariance; wait for the receiver to settle before driving"});
   } else if (best > kPoor_m) {
     findings.push_back({Severity::kRemark, record.topic, "fixes are good to " + span,
                         "the start is as uncertain as that, and a truth of it judges no better"});
@@ -97,10 +98,10 @@ void checkHeight(const std::string& topic, const TruthTrack& positions, Findings
   }
   const double span_m = percentile(heights, 95.0) - percentile(heights, 5.0);
   if (span_m > 5.0 && span_m > kSteep * largest_m) {
-    findings.push_back({Severity::kDoubtful, topic,
-                        "height wanders by " + decimal(span_m, 0) + " m within " + decimal(largest_m, 0) +
-                            " m of the start",
-                        "do not judge heights by it: truth: {align: heading} and look at horizontal figures"});
+    findings.push_back(
+        {Severity::kDoubtful, topic,
+         "height wanders by " + decimal(span_m, 0) + " m within " + decimal(largest_m, 0) + " m of the start",
+         "do not judge heights by it: truth: {align: heading} and look at horizontal figures"});
   }
 }
 
@@ -183,10 +184,10 @@ void checkTimeInCommon(const std::string& topic, const TruthTrack& positions, do
   }
   const double common_s = std::min(end_s, imu_end_s) - std::max(begin_s, imu_begin_s);
   if (common_s < 0.5 * (imu_end_s - imu_begin_s)) {
-    findings.push_back({Severity::kRemark, topic,
-                        "covers " + decimal(common_s, 0) + " s of the " + decimal(imu_end_s - imu_begin_s, 0) +
-                            " s of the drive",
-                        "errors are judged there alone"});
+    findings.push_back(
+        {Severity::kRemark, topic,
+         "covers " + decimal(common_s, 0) + " s of the " + decimal(imu_end_s - imu_begin_s, 0) + " s of the drive",
+         "errors are judged there alone"});
   }
 }
 

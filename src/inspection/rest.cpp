@@ -171,10 +171,9 @@ void checkRests(const std::string& topic, const RestPicture& picture, Findings& 
   describeRests(topic, picture, findings);
   const LeastBias bias = leastBias(picture);
   if (bias.rate_radps > 0.0) {
-    findings.push_back({Severity::kRemark, topic,
-                        "at rest the gyros turn by " + decimal(radToDeg(bias.rate_radps), 2) + " °/s",
-                        "imu.noise.gyro_bias_std_deg_per_h not below " +
-                            decimal(3600.0 * radToDeg(bias.rate_radps), 0)});
+    findings.push_back(
+        {Severity::kRemark, topic, "at rest the gyros turn by " + decimal(radToDeg(bias.rate_radps), 2) + " °/s",
+         "imu.noise.gyro_bias_std_deg_per_h not below " + decimal(3600.0 * radToDeg(bias.rate_radps), 0)});
   }
   if (bias.force_mps2 > 0.0) {
     findings.push_back({Severity::kRemark, topic,

@@ -92,9 +92,8 @@ std::string listOf(const Recording& recording, const std::string& type) {
 }
 
 bool has(const Recording& recording, const std::string& name) {
-  return std::any_of(recording.topics.begin(), recording.topics.end(), [&name](const TopicRecord& topic) {
-    return sameTopic(topic.topic, name) && topic.messages > 0;
-  });
+  return std::any_of(recording.topics.begin(), recording.topics.end(),
+                     [&name](const TopicRecord& topic) { return sameTopic(topic.topic, name) && topic.messages > 0; });
 }
 
 /// @param role topic that would do; "" for none
@@ -115,12 +114,12 @@ bool sameTopic(const std::string& a, const std::string& b) { return bare(a) == b
 Roles proposeRoles(const Recording& recording, const TopicNames& names, const std::vector<std::string>& wheel_names) {
   Roles roles;
   roles.imu = bestOf(recording.imus, [&](const ImuRecord& record) { return scoreOfImu(record, names.imu); });
-  roles.joints = bestOf(recording.joints,
-                        [&](const JointRecord& record) { return scoreOfJoints(record, names, wheel_names); });
+  roles.joints =
+      bestOf(recording.joints, [&](const JointRecord& record) { return scoreOfJoints(record, names, wheel_names); });
   roles.wheel_odometry =
       bestOf(recording.poses, [&](const PoseRecord& record) { return scoreOfOdometry(record, names); });
-  roles.truth_fix = bestOf(recording.fixes,
-                           [&](const FixRecord& record) { return scoreOfTruth(record.topic, names.truth_fix); });
+  roles.truth_fix =
+      bestOf(recording.fixes, [&](const FixRecord& record) { return scoreOfTruth(record.topic, names.truth_fix); });
   roles.truth_pose = bestOf(recording.poses, [&](const PoseRecord& record) {
     return scoreOfTruth(record.topic, names.truth_odometry) + byName(record.topic, names.truth_pose);
   });
@@ -153,7 +152,9 @@ std::string topicTable(const Recording& recording, const Roles& roles) {
   };
   for (const TopicRecord& topic : recording.topics) {
     std::string role;
-    const auto add = [&role](bool yes, const char* name) { role += yes ? (role.empty() ? "" : ", ") + std::string(name) : ""; };
+    const auto add = [&role](bool yes, const char* name) {
+      role += yes ? (role.empty() ? "" : ", ") + std::string(name) : "";
+    };
     add(is(roles.imu, topic), "imu/data");
     add(is(roles.joints, topic), "joint_states");
     add(is(roles.wheel_odometry, topic), "wheel_odometry");

@@ -57,8 +57,8 @@ void noteIntervals(const std::vector<double>& forward_s, StreamStatistics& stati
   }
   statistics.jitter_s = 0.5 * (percentile(forward_s, 98.0) - percentile(forward_s, 2.0));
   double covered_s = 0.0;
-  statistics.off_pace = static_cast<std::size_t>(
-      std::count_if(forward_s.begin(), forward_s.end(), [&statistics](double interval_s) {
+  statistics.off_pace =
+      static_cast<std::size_t>(std::count_if(forward_s.begin(), forward_s.end(), [&statistics](double interval_s) {
         return std::abs(interval_s / statistics.interval_s - 1.0) > kOffPace;
       }));
   for (const double interval_s : forward_s) {
@@ -129,11 +129,11 @@ void checkOrder(const std::string& topic, const StreamStatistics& statistics, Fi
 
 void checkPace(const std::string& topic, const StreamStatistics& statistics, const StreamNeeds& needs,
                Findings& findings) {
-  if (statistics.rate_hz > 0.0 && (statistics.rate_hz < needs.least_rate_hz || statistics.rate_hz > needs.most_rate_hz)) {
+  if (statistics.rate_hz > 0.0 &&
+      (statistics.rate_hz < needs.least_rate_hz || statistics.rate_hz > needs.most_rate_hz)) {
     findings.push_back({Severity::kDoubtful, topic,
-                        "comes at " + decimal(statistics.rate_hz, 1) + " Hz, where " +
-                            decimal(needs.least_rate_hz, 0) + " to " + decimal(needs.most_rate_hz, 0) +
-                            " Hz are wanted",
+                        "comes at " + decimal(statistics.rate_hz, 1) + " Hz, where " + decimal(needs.least_rate_hz, 0) +
+                            " to " + decimal(needs.most_rate_hz, 0) + " Hz are wanted",
                         "choose another rate in the driver"});
   }
   if (needs.even && statistics.jitter_s > kEvenJitter * statistics.interval_s) {

@@ -63,8 +63,7 @@ WheelRow rowOf(const WheelSample& sample, double interval_s, const std::vector<W
     row.speed = meanOf(sample, wheels, Side::kUnknown, track.in_meters);
   }
   for (std::size_t i = 0; i < wheels.size(); ++i) {
-    row.largest =
-        std::max(row.largest, std::abs(sample.rate_radps[i]) * (track.in_meters ? wheels[i].radius_m : 1.0));
+    row.largest = std::max(row.largest, std::abs(sample.rate_radps[i]) * (track.in_meters ? wheels[i].radius_m : 1.0));
   }
   return row;
 }

@@ -40,8 +40,8 @@ std::string complaintOfForce(double length_mps2, double gravity_mps2) {
   if (isAbout(length_mps2, gravity_mps2)) {
     return "";
   }
-  const std::string measured = "the mean specific force is " + number(length_mps2) + " where gravity is " +
-                               number(gravity_mps2) + " m/s^2: ";
+  const std::string measured =
+      "the mean specific force is " + number(length_mps2) + " where gravity is " + number(gravity_mps2) + " m/s^2: ";
   if (isAbout(length_mps2, gravity_mps2 / kStandardGravity_mps2)) {
     return measured + "in g? the driver has to give m/s^2";
   }

@@ -35,7 +35,6 @@ Vector3 toVector3(const V& v) {
   return {v.x, v.y, v.z};
 }
 
-
 /// Fills a recording from one file after another.
 class RecordingReader {
  public:
@@ -101,18 +100,17 @@ class RecordingReader {
 
   void takeImu(const std::string& topic, const sensor_msgs::Imu& message, const BagEntry& entry) {
     const std::string frame = bare(message.header.frame_id);
-    ImuRecord& record = recordOf(result_.imus, topic,
-                                 [&frame](const ImuRecord& r) { return r.frame == frame; });
+    ImuRecord& record = recordOf(result_.imus, topic, [&frame](const ImuRecord& r) { return r.frame == frame; });
     record.frame = frame;
-    record.samples.push_back({timeOf(message.header, entry), toVector3(message.linear_acceleration),
-                              toVector3(message.angular_velocity)});
+    record.samples.push_back(
+        {timeOf(message.header, entry), toVector3(message.linear_acceleration), toVector3(message.angular_velocity)});
     record.without_force += message.linear_acceleration_covariance[0] == -1.0 ? 1 : 0;
     record.without_rate += message.angular_velocity_covariance[0] == -1.0 ? 1 : 0;
   }
 
   void takeJoints(const std::string& topic, const sensor_msgs::JointState& message, const BagEntry& entry) {
-    JointRecord& record = recordOf(result_.joints, topic,
-                                   [&message](const JointRecord& r) { return r.names == message.name; });
+    JointRecord& record =
+        recordOf(result_.joints, topic, [&message](const JointRecord& r) { return r.names == message.name; });
     record.names = message.name;
     record.samples.push_back({timeOf(message.header, entry), message.position, message.velocity});
   }

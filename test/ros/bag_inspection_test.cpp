@@ -66,19 +66,21 @@ TEST(BagInspection, TheProposedConfigurationRuns) {
 }
 
 TEST(BagInspection, NamesWhatIsWrongWithADamagedDrive) {
-  EXPECT_NE(textOfEdited<sensor_msgs::Imu>("imu/data", [](sensor_msgs::Imu& imu) {
-              imu.linear_acceleration.x /= 9.80665;
-              imu.linear_acceleration.y /= 9.80665;
-              imu.linear_acceleration.z /= 9.80665;
-            }).find("in g?"),
+  EXPECT_NE(textOfEdited<sensor_msgs::Imu>("imu/data",
+                                           [](sensor_msgs::Imu& imu) {
+                                             imu.linear_acceleration.x /= 9.80665;
+                                             imu.linear_acceleration.y /= 9.80665;
+                                             imu.linear_acceleration.z /= 9.80665;
+                                           })
+                .find("in g?"),
             std::string::npos);
-  EXPECT_NE(textOfEdited<sensor_msgs::Imu>("imu/data", [](sensor_msgs::Imu& imu) {
-              imu.linear_acceleration_covariance[0] = -1.0;
-            }).find("covariance[0] is -1"),
+  EXPECT_NE(textOfEdited<sensor_msgs::Imu>("imu/data",
+                                           [](sensor_msgs::Imu& imu) { imu.linear_acceleration_covariance[0] = -1.0; })
+                .find("covariance[0] is -1"),
             std::string::npos);
-  EXPECT_NE(textOfEdited<sensor_msgs::JointState>("joint_states", [](sensor_msgs::JointState& joints) {
-              joints.header.stamp = ros::Time(0, 0);
-            }).find("are zero"),
+  EXPECT_NE(textOfEdited<sensor_msgs::JointState>(
+                "joint_states", [](sensor_msgs::JointState& joints) { joints.header.stamp = ros::Time(0, 0); })
+                .find("are zero"),
             std::string::npos);
 }
 

@@ -28,16 +28,16 @@ double speedAt(double t_s) {
   return kSpeed_mps * std::clamp(std::min(phase_s, left_s) / kRamp_s, 0.0, 1.0);
 }
 
-double headingRateAt(double t_s) {
-  return 0.4 * std::sin(0.37 * t_s + 0.002 * t_s * t_s) * speedAt(t_s) / kSpeed_mps;
-}
+double headingRateAt(double t_s) { return 0.4 * std::sin(0.37 * t_s + 0.002 * t_s * t_s) * speedAt(t_s) / kSpeed_mps; }
 
 double accelerationAt(double t_s) { return (speedAt(t_s + 0.01) - speedAt(t_s - 0.01)) / 0.02; }
 
 void addImu(const SyntheticDrive& drive, Recording& recording) {
   std::mt19937 generator(1);
   std::normal_distribution<double> normal;
-  const auto noise = [&](double std) -> Vector3 { return std * Vector3(normal(generator), normal(generator), normal(generator)); };
+  const auto noise = [&](double std) -> Vector3 {
+    return std * Vector3(normal(generator), normal(generator), normal(generator));
+  };
   ImuRecord imu;
   imu.topic = "/imu/data";
   imu.frame = "imu_link";

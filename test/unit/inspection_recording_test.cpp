@@ -71,10 +71,9 @@ TEST(InspectionOfRecording, NamesUnitsAndGravity) {
 }
 
 TEST(InspectionOfRecording, NamesWhatIsAbsentOrTwice) {
-  expectFinding(inspectSpoilt([](Recording& recording) {
-                  recording.imus[0].without_force = recording.imus[0].samples.size();
-                }),
-                "covariance[0] is -1", Severity::kUnusable);
+  expectFinding(
+      inspectSpoilt([](Recording& recording) { recording.imus[0].without_force = recording.imus[0].samples.size(); }),
+      "covariance[0] is -1", Severity::kUnusable);
   expectFinding(inspectSpoilt([](Recording& recording) {
                   recording.imus.push_back(recording.imus[0]);
                   recording.imus[1].frame = "other";

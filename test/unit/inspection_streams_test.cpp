@@ -98,8 +98,10 @@ TEST(InspectionStreams, FindsResolutionAndWrap) {
 }
 
 TEST(InspectionStreams, WorstFindingsComeFirstAndDecideTheStatus) {
-  Findings findings = {{Severity::kRemark, "a", "t", "r"}, {Severity::kUnusable, "b", "t", "r"},
-                       {Severity::kDoubtful, "c", "t", "r"}, {Severity::kDoubtful, "d", "t", "r"}};
+  Findings findings = {{Severity::kRemark, "a", "t", "r"},
+                       {Severity::kUnusable, "b", "t", "r"},
+                       {Severity::kDoubtful, "c", "t", "r"},
+                       {Severity::kDoubtful, "d", "t", "r"}};
   mergeAlike(findings);
   ASSERT_EQ(findings.size(), 3U);
   sortWorstFirst(findings);

@@ -16,11 +16,11 @@ struct EncoderPicture {
   double least_position_rad = 0.0;
   double greatest_position_rad = 0.0;
   double least_velocity_radps = 0.0;
-  double resolution_rad = 0.0;      ///< step that all changes of position are multiples of; 0: none seen
-  double velocity_step_radps = 0.0; ///< likewise of velocities
-  double velocity_ratio = 0.0;      ///< velocity over differenced position; 0: not known
-  double turned_rad = 0.0;          ///< sum of the magnitudes of all changes of position
-  bool wraps = false;               ///< positions stay within one turn while the wheel makes many
+  double resolution_rad = 0.0;       ///< step that all changes of position are multiples of; 0: none seen
+  double velocity_step_radps = 0.0;  ///< likewise of velocities
+  double velocity_ratio = 0.0;       ///< velocity over differenced position; 0: not known
+  double turned_rad = 0.0;           ///< sum of the magnitudes of all changes of position
+  bool wraps = false;                ///< positions stay within one turn while the wheel makes many
 };
 
 EncoderPicture pictureOf(const JointRecord& record, std::size_t joint);

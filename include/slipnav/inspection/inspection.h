@@ -20,9 +20,9 @@ namespace slipnav {
 
 /// What is known before the recording is looked at.
 struct InspectionOptions {
-  std::optional<Config> config;      ///< held against the recording
-  std::optional<MountParams> tf;     ///< pose of the IMU in base_link by /tf and /tf_static
-  double wheel_radius_m = 0.0;       ///< 0: not known
+  std::optional<Config> config;   ///< held against the recording
+  std::optional<MountParams> tf;  ///< pose of the IMU in base_link by /tf and /tf_static
+  double wheel_radius_m = 0.0;    ///< 0: not known
 };
 
 /// Everything that was found.

@@ -16,11 +16,12 @@ inline constexpr double kLongestDrive_s = 86400.0;
 /// Means over a window of 0.6 s, in the sensor's own axes.
 struct MotionRow {
   double time_s = 0.0;
-  std::size_t batch = 0;          ///< a few seconds each; errors of one batch belong together
-  double speed = 0.0;             ///< by wheels
-  double acceleration = 0.0;      ///< by wheels
-  double turn = 0.0;              ///< by wheels, see WheelRow
-  Vector3 force = Vector3::Zero(); ///< without gravity, which is carried along by the gyros from the begin of the batch
+  std::size_t batch = 0;      ///< a few seconds each; errors of one batch belong together
+  double speed = 0.0;         ///< by wheels
+  double acceleration = 0.0;  ///< by wheels
+  double turn = 0.0;          ///< by wheels, see WheelRow
+  Vector3 force =
+      Vector3::Zero();             ///< without gravity, which is carried along by the gyros from the begin of the batch
   Vector3 rate = Vector3::Zero();  ///< without the bias at rest
 };
 

@@ -68,9 +68,9 @@ struct PoseRecord {
 /// A position by satellites, whatever its status says.
 struct RawFixSample {
   MessageTime time;
-  bool has_fix = false;    ///< by its status
-  bool is_nowhere = false; ///< latitude 0, longitude 0
-  bool is_usable = false;  ///< finite, in range, with a fix
+  bool has_fix = false;     ///< by its status
+  bool is_nowhere = false;  ///< latitude 0, longitude 0
+  bool is_usable = false;   ///< finite, in range, with a fix
   bool has_covariance = false;
   GnssFix fix;
 };

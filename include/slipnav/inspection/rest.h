@@ -21,12 +21,12 @@ std::vector<StillTime> restsOf(const WheelTrack& wheels);
 /// Means and deviations in the sensor's own axes.
 struct RestPicture {
   std::vector<StillTime> rests;
-  bool known = false;                          ///< there is a rest with samples in it
-  Vector3 force = Vector3::Zero();             ///< mean at rest; over all where there is no rest
-  Vector3 rate = Vector3::Zero();              ///< at rest: the gyros' bias; zero where there is no rest
-  Vector3 force_std = Vector3::Zero();         ///< at rest, within each rest
+  bool known = false;                   ///< there is a rest with samples in it
+  Vector3 force = Vector3::Zero();      ///< mean at rest; over all where there is no rest
+  Vector3 rate = Vector3::Zero();       ///< at rest: the gyros' bias; zero where there is no rest
+  Vector3 force_std = Vector3::Zero();  ///< at rest, within each rest
   Vector3 rate_std = Vector3::Zero();
-  Vector3 driving_force_std = Vector3::Zero(); ///< from sample to sample, while driving
+  Vector3 driving_force_std = Vector3::Zero();  ///< from sample to sample, while driving
   Vector3 driving_rate_std = Vector3::Zero();
 };
 

@@ -12,16 +12,16 @@ namespace slipnav {
 /// Everything there is to know from the stamps alone.
 struct StreamStatistics {
   std::size_t messages = 0;
-  std::size_t zero = 0;           ///< stamps that are not set
-  std::size_t equal = 0;          ///< stamps equal to that of the message before
-  std::size_t backwards = 0;      ///< stamps before that of the message before, by less than a second
-  std::vector<double> set_back_s; ///< by how much the clock was set back, a second or more
-  std::vector<double> gaps_s;     ///< intervals of more than three usual ones and half a second
-  std::size_t off_pace = 0;       ///< intervals that differ from the usual one by more than a quarter
-  double interval_s = 0.0;        ///< median
-  double rate_hz = 0.0;           ///< messages over the time without gaps
-  double jitter_s = 0.0;          ///< half of the span from the 2nd to the 98th percentile of the intervals
-  double delay_s = 0.0;           ///< median of receive time less stamp
+  std::size_t zero = 0;            ///< stamps that are not set
+  std::size_t equal = 0;           ///< stamps equal to that of the message before
+  std::size_t backwards = 0;       ///< stamps before that of the message before, by less than a second
+  std::vector<double> set_back_s;  ///< by how much the clock was set back, a second or more
+  std::vector<double> gaps_s;      ///< intervals of more than three usual ones and half a second
+  std::size_t off_pace = 0;        ///< intervals that differ from the usual one by more than a quarter
+  double interval_s = 0.0;         ///< median
+  double rate_hz = 0.0;            ///< messages over the time without gaps
+  double jitter_s = 0.0;           ///< half of the span from the 2nd to the 98th percentile of the intervals
+  double delay_s = 0.0;            ///< median of receive time less stamp
 };
 
 StreamStatistics statisticsOf(const std::vector<MessageTime>& times);
