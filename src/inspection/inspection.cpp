@@ -47,6 +47,9 @@ class Inspector {
     if (options.config) {
       names_ = options.config->topics;
     }
+    if (!options.truth.empty()) {
+      names_.truth_fix = names_.truth_odometry = names_.truth_pose = options.truth;
+    }
   }
 
   Inspection run() {

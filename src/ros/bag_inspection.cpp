@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "slipnav/eval/rtklib_pos.h"
 #include "slipnav/math/rotation.h"
 #include "slipnav/ros/bag_file.h"
 #include "slipnav/ros/conversions.h"
@@ -219,6 +220,20 @@ Recording readRecording(const std::vector<std::string>& paths) {
     reader.read(path);
   }
   return reader.finish();
+}
+
+void addRtklibFile(const std::string& path, Recording& recording) {
+  FixRecord record;
+  record.topic = path;
+  for (const RtklibSolution& solution : readRtklibPos(path)) {
+    RawFixSample sample;
+    sample.time = {solution.fix.stamp, solution.fix.stamp};
+    sample.has_fix = sample.is_usable = sample.has_covariance = solution.solved();
+    sample.fix = solution.fix;
+    record.samples.push_back(sample);
+  }
+  recording.topics.push_back({path, "RTKLIB file", record.samples.size(), 1});
+  recording.fixes.push_back(std::move(record));
 }
 
 std::optional<MountParams> poseByTransforms(const Recording& recording, const std::string& base,

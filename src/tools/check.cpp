@@ -4,6 +4,7 @@
 
 #include "slipnav/config/config_options.h"
 #include "slipnav/eval/atomic_file.h"
+#include "slipnav/eval/rtklib_pos.h"
 #include "slipnav/inspection/configuration_proposal.h"
 #include "slipnav/inspection/inspection.h"
 #include "slipnav/ros/bag_inspection.h"
@@ -18,6 +19,7 @@ CommandLine commandLine() {
                            "Looks at a recording, says what is wrong with it and what to do, the worst first. Exit "
                            "status: 0 usable, 1 doubtful, 2 not usable.");
   command_line.positionals("BAG", "recording of ROS 1; several are parts of one drive")
+      .option("truth", "TOPIC|FILE.pos", "truth: a topic of the recording or an RTKLIB solution; default: by its name")
       .option("wheel-radius", "M", "of all wheels, where no configuration says it", "0")
       .option("out", "YAML", "configuration to write: what the drive is sure of, each with its reason");
   slipnav::declareConfigOptions(command_line);
@@ -30,6 +32,7 @@ bool hasConfiguration(const Arguments& arguments) {
 
 slipnav::InspectionOptions optionsFrom(const Arguments& arguments) {
   slipnav::InspectionOptions options;
+  options.truth = arguments.text("truth");
   options.wheel_radius_m = arguments.number("wheel-radius", {0.0, 10.0});
   if (hasConfiguration(arguments)) {
     options.config = slipnav::configFromOptions(arguments);
@@ -46,7 +49,10 @@ int run(int argc, char** argv) {
   }
   slipnav::InspectionOptions options = optionsFrom(arguments);
   const std::vector<std::string>& paths = arguments.all("BAG");
-  const slipnav::Recording recording = slipnav::readRecording(paths);
+  slipnav::Recording recording = slipnav::readRecording(paths);
+  if (slipnav::isRtklibFile(options.truth)) {
+    slipnav::addRtklibFile(options.truth, recording);
+  }
   const slipnav::FrameNames frames = options.config ? options.config->frames : slipnav::FrameNames{};
   if (!recording.imus.empty()) {
     options.tf = slipnav::poseByTransforms(recording, frames.base, recording.imus.front().frame);

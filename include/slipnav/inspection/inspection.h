@@ -22,6 +22,7 @@ namespace slipnav {
 struct InspectionOptions {
   std::optional<Config> config;   ///< held against the recording
   std::optional<MountParams> tf;  ///< pose of the IMU in base_link by /tf and /tf_static
+  std::string truth;              ///< topic or file of the truth; "" to guess
   double wheel_radius_m = 0.0;    ///< 0: not known
 };
 

@@ -15,6 +15,9 @@ namespace slipnav {
 /// named. Throws std::invalid_argument that names a file that is no complete recording of ROS 1.
 Recording readRecording(const std::vector<std::string>& paths);
 
+/// The rows of an RTKLIB file (.pos) as a topic of that name; the reading of the file says what is wrong with it.
+void addRtklibFile(const std::string& path, Recording& recording);
+
 /// Pose of `child` in `base` by the transforms of a recording, through any number of frames; nothing when they do not
 /// connect the two.
 std::optional<MountParams> poseByTransforms(const Recording& recording, const std::string& base,
