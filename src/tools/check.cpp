@@ -1,6 +1,7 @@
 /// Looks at a recording and says what is wrong with it, and writes a configuration from what it tells.
 
 #include <iostream>
+#include <stdexcept>
 
 #include "slipnav/config/config_options.h"
 #include "slipnav/eval/atomic_file.h"
@@ -69,8 +70,17 @@ int run(int argc, char** argv) {
   return slipnav::statusOf(inspection.findings);
 }
 
+/// Status 1 means doubt: whatever keeps from looking at the recording is 2.
+int runToStatus(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::runtime_error& error) {
+    throw std::invalid_argument(error.what());
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  return slipnav::runGuarded("check", std::cerr, [argc, argv] { return run(argc, argv); });
+  return slipnav::runGuarded("check", std::cerr, [argc, argv] { return runToStatus(argc, argv); });
 }
