@@ -32,7 +32,34 @@ std::string number(double value) {
   return out.str();
 }
 
+bool isAbout(double length, double value) { return std::abs(length / value - 1.0) < kForceTolerance; }
+
 }  // namespace
+
+std::string complaintOfForce(double length_mps2, double gravity_mps2) {
+  if (isAbout(length_mps2, gravity_mps2)) {
+    return "";
+  }
+  const std::string measured =
+      "the mean specific force is " + number(length_mps2) + " where gravity is " + number(gravity_mps2) + " m/s^2: ";
+  if (isAbout(length_mps2, gravity_mps2 / kStandardGravity_mps2)) {
+    return measured + "in g? the driver has to give m/s^2";
+  }
+  if (length_mps2 < kNoGravity * gravity_mps2) {
+    return measured + "gravity taken out? choose the topic of the driver that has it, or switch that off";
+  }
+  return measured + "another unit, or another planet? the driver has to give m/s^2, see planet";
+}
+
+std::string complaintOfRateUnit(const std::string& than_what) {
+  return "the gyros turn " + than_what + ": in deg/s? the driver has to give rad/s";
+}
+
+std::string complaintOfDirection(bool has_sign) {
+  return std::string("wheels and IMU disagree on the direction: ") +
+         (has_sign ? "" : "the wheels' speed has no sign, ") +
+         "wheels[].sign is wrong, or imu.mount is turned by 180 deg about z";
+}
 
 void InputCheck::Spread::add(const Vector2& value) {
   count += 1.0;
@@ -80,28 +107,17 @@ void InputCheck::closeWindow() {
 
 void InputCheck::judgeForce(const Vector3& mean_force) {
   const double length = mean_force.norm();
-  const auto isAbout = [length](double value) { return std::abs(length / value - 1.0) < kForceTolerance; };
-  const bool right = isAbout(gravity_mps2_);
+  const bool right = isAbout(length, gravity_mps2_);
   if (!right && complained_force_mps2_ != 0.0) {
     return;  // said already; on slopes what is left of gravity changes
   }
   complained_force_mps2_ = right ? 0.0 : length;
-  const std::string measured =
-      "the mean specific force is " + number(length) + " where gravity is " + number(gravity_mps2_) + " m/s^2: ";
-  force_complaint_.clear();
-  if (right) {
-    if (-mean_force.z() < kLeastUpward * length) {
-      force_complaint_ =
-          "the specific force does not point up: imu.mount does not say how the sensor is turned, or the "
-          "driver gives gravity upside down; a level sensor at rest says +9.8 m/s^2 on the axis that "
-          "points up";
-    }
-  } else if (isAbout(gravity_mps2_ / kStandardGravity_mps2)) {
-    force_complaint_ = measured + "in g? the driver has to give m/s^2";
-  } else if (length < kNoGravity * gravity_mps2_) {
-    force_complaint_ = measured + "gravity taken out? choose the topic of the driver that has it, or switch that off";
-  } else {
-    force_complaint_ = measured + "another unit, or another planet? the driver has to give m/s^2, see planet";
+  force_complaint_ = complaintOfForce(length, gravity_mps2_);
+  if (right && -mean_force.z() < kLeastUpward * length) {
+    force_complaint_ =
+        "the specific force does not point up: imu.mount does not say how the sensor is turned, or the "
+        "driver gives gravity upside down; a level sensor at rest says +9.8 m/s^2 on the axis that "
+        "points up";
   }
 }
 
@@ -116,7 +132,7 @@ void InputCheck::judgeTilt(const Vector3& mean_force, const Vector3& turned) {
   const double by_gyro = std::sqrt(tilt_by_gyro_.variance());
   if (tilt_by_gyro_.count >= kLeastWindows && by_gyro > kLeastTilt_rad &&
       by_gyro > kUnitFactor * std::sqrt(tilt_by_force_.variance())) {
-    rate_complaint_ = "the gyros turn far more than the specific force tilts: in deg/s? the driver has to give rad/s";
+    rate_complaint_ = complaintOfRateUnit("far more than the specific force tilts");
   }
 }
 
@@ -143,7 +159,7 @@ void InputCheck::judgeTurns() {
   }
   const double ratio = gyro_by_wheels_ / wheels_squared_;
   if (ratio > kUnitFactor) {
-    rate_complaint_ = "the gyros turn more than 15 times as far as the wheels: in deg/s? the driver has to give rad/s";
+    rate_complaint_ = complaintOfRateUnit("more than 15 times as far as the wheels");
   } else if (ratio < kOppositeTurn) {
     rate_complaint_ =
         "gyros and wheels turn in opposite directions: imu.mount is upside down, the gyro's axes are not "
@@ -158,9 +174,7 @@ void InputCheck::chooseComplaint() {
   } else if (!rate_complaint_.empty()) {
     complaint_ = rate_complaint_;
   } else if (direction_.contradicts()) {
-    complaint_ = std::string("wheels and IMU disagree on the direction: ") +
-                 (direction_.hasSign() ? "" : "the wheels' speed has no sign, ") +
-                 "wheels[].sign is wrong, or imu.mount is turned by 180 deg about z";
+    complaint_ = complaintOfDirection(direction_.hasSign());
   } else {
     complaint_.clear();
   }

@@ -19,6 +19,14 @@ constexpr double kLeapTolerance_s = 0.5;
 
 }  // namespace
 
+std::string clocksApart(const std::string& a, const std::string& b, double apart_s) {
+  std::ostringstream text;
+  text << "stamps of " << a << " and " << b << " are " << std::fixed << std::setprecision(1) << std::abs(apart_s)
+       << " s apart"
+       << (std::abs(std::abs(apart_s) - kLeapSeconds_s) < kLeapTolerance_s ? ": is one of them GPS time?" : "");
+  return text.str();
+}
+
 std::string StampWatch::note(const std::string& topic, Nanoseconds stamp) {
   if (newest_imu_ <= 0 || stamp <= 0) {
     return "";
@@ -36,10 +44,7 @@ std::string StampWatch::note(const std::string& topic, Nanoseconds stamp) {
   if (apart_s < kApart_s || span_s > kEven * apart_s) {
     return "";
   }
-  std::ostringstream text;
-  text << "stamps of " << imu_topic_ << " and " << topic << " are " << std::fixed << std::setprecision(1) << apart_s
-       << " s apart" << (std::abs(apart_s - kLeapSeconds_s) < kLeapTolerance_s ? ": is one of them GPS time?" : "");
-  return text.str();
+  return clocksApart(imu_topic_, topic, apart_s);
 }
 
 }  // namespace slipnav

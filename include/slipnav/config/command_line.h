@@ -65,6 +65,8 @@ class CommandLine {
   CommandLine& repeated(const std::string& name, const std::string& value_name, const std::string& meaning);
   /// A required argument without dashes; the order of the calls is that on the command line.
   CommandLine& positional(const std::string& name, const std::string& meaning);
+  /// Like positional(), but takes one or more; the last one to be declared.
+  CommandLine& positionals(const std::string& name, const std::string& meaning);
 
   /// @param arguments without the program's own name; both `--name value` and `--name=value` are understood, and
   ///     everything after a bare `--` is positional. Throws UsageError that names the first wrong argument.
@@ -75,7 +77,7 @@ class CommandLine {
   std::string help() const;
 
  private:
-  enum class Kind { kFlag, kOption, kRepeated, kPositional };
+  enum class Kind { kFlag, kOption, kRepeated, kPositional, kPositionals };
   struct Declaration {
     Kind kind;
     std::string name;
@@ -85,9 +87,10 @@ class CommandLine {
     std::vector<std::string> choices;
   };
 
+  static bool isPositional(const Declaration& item);
   Arguments withDefaults() const;
   const Declaration& findOption(const std::string& shown) const;
-  std::vector<const Declaration*> positionals() const;
+  std::vector<const Declaration*> expected() const;
   /// Takes the option at `index` with its value; @return the index of the last argument taken.
   std::size_t takeOption(const std::vector<std::string>& arguments, std::size_t index, Arguments& result) const;
   static void store(const Declaration& declaration, const std::string& value, Arguments& result);

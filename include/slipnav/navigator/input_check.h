@@ -16,6 +16,16 @@
 
 namespace slipnav {
 
+/// What the length of a mean specific force says of its unit, with cause and remedy; "" when it is about gravity's.
+/// @param length_mps2 mean over a second or more; @param gravity_mps2 about what it is here
+std::string complaintOfForce(double length_mps2, double gravity_mps2);
+
+/// What is wrong with gyros that turn far more than anything else says.
+std::string complaintOfRateUnit(const std::string& than_what);
+
+/// Wheels and IMU contradict each other on forward and back. @param has_sign whether the wheels' speed is ever negative
+std::string complaintOfDirection(bool has_sign);
+
 /// Takes samples in order of stamp, as long as the rover drives.
 class InputCheck {
  public:

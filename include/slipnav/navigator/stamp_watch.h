@@ -12,6 +12,9 @@
 
 namespace slipnav {
 
+/// "stamps of A and B are 3.1 s apart", and a guess at the cause where there is one.
+std::string clocksApart(const std::string& a, const std::string& b, double apart_s);
+
 /// For alarms only: what it says depends on the order of arrival.
 class StampWatch {
  public:
