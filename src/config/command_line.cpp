@@ -108,6 +108,15 @@ CommandLine& CommandLine::positional(const std::string& name, const std::string&
   return *this;
 }
 
+CommandLine& CommandLine::positionals(const std::string& name, const std::string& meaning) {
+  declarations_.push_back({Kind::kPositionals, name, "", meaning, "", {}});
+  return *this;
+}
+
+bool CommandLine::isPositional(const Declaration& item) {
+  return item.kind == Kind::kPositional || item.kind == Kind::kPositionals;
+}
+
 Arguments CommandLine::parse(int argc, const char* const* argv) const { return parse({argv + 1, argv + argc}); }
 
 Arguments CommandLine::parse(const std::vector<std::string>& arguments) const {
@@ -116,7 +125,7 @@ Arguments CommandLine::parse(const std::vector<std::string>& arguments) const {
   if (result.help_requested_) {
     return result;
   }
-  const std::vector<const Declaration*> expected = positionals();
+  const std::vector<const Declaration*> expected = declaredPositionals();
   std::size_t positional_count = 0;
   bool options_ended = false;
   for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -126,6 +135,8 @@ Arguments CommandLine::parse(const std::vector<std::string>& arguments) const {
       i = takeOption(arguments, i, result);
     } else if (positional_count < expected.size()) {
       store(*expected[positional_count++], arguments[i], result);
+    } else if (!expected.empty() && expected.back()->kind == Kind::kPositionals) {
+      store(*expected.back(), arguments[i], result);
     } else {
       throw UsageError("unexpected argument " + quote(arguments[i]));
     }
@@ -139,12 +150,12 @@ Arguments CommandLine::parse(const std::vector<std::string>& arguments) const {
 std::string CommandLine::help() const {
   std::string usage = "usage: " + program_;
   std::string details;
-  for (const Declaration* argument : positionals()) {
-    usage += " " + argument->name;
+  for (const Declaration* argument : declaredPositionals()) {
+    usage += " " + argument->name + (argument->kind == Kind::kPositionals ? "..." : "");
     details += helpLine(argument->name, argument->meaning);
   }
   for (const Declaration& item : declarations_) {
-    if (item.kind == Kind::kPositional) {
+    if (isPositional(item)) {
       continue;
     }
     std::string meaning = item.meaning;
@@ -162,7 +173,7 @@ Arguments CommandLine::withDefaults() const {
   Arguments result;
   for (const Declaration& item : declarations_) {
     Arguments::Slot slot;
-    slot.shown = (item.kind == Kind::kPositional ? "" : "--") + item.name;
+    slot.shown = (isPositional(item) ? "" : "--") + item.name;
     if (item.kind == Kind::kOption) {
       slot.values = {item.default_value};
     }
@@ -174,7 +185,7 @@ Arguments CommandLine::withDefaults() const {
 const CommandLine::Declaration& CommandLine::findOption(const std::string& shown) const {
   std::vector<std::string> known = {"--help"};
   for (const Declaration& item : declarations_) {
-    if (item.kind == Kind::kPositional) {
+    if (isPositional(item)) {
       continue;
     }
     if (shown == "--" + item.name) {
@@ -185,10 +196,10 @@ const CommandLine::Declaration& CommandLine::findOption(const std::string& shown
   throw UsageError("unknown option " + quote(shown) + ", did you mean " + quote(nearestName(shown, known)) + "?");
 }
 
-std::vector<const CommandLine::Declaration*> CommandLine::positionals() const {
+std::vector<const CommandLine::Declaration*> CommandLine::declaredPositionals() const {
   std::vector<const Declaration*> found;
   for (const Declaration& item : declarations_) {
-    if (item.kind == Kind::kPositional) {
+    if (isPositional(item)) {
       found.push_back(&item);
     }
   }
@@ -224,7 +235,7 @@ void CommandLine::store(const Declaration& declaration, const std::string& value
   if (const std::string complaint = complaintAbout(value, declaration.choices); !complaint.empty()) {
     throw UsageError(slot.shown + " " + complaint);
   }
-  if (declaration.kind != Kind::kRepeated) {
+  if (declaration.kind != Kind::kRepeated && declaration.kind != Kind::kPositionals) {
     slot.values.clear();
   }
   slot.values.push_back(value);

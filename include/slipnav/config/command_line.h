@@ -30,7 +30,7 @@ class Arguments {
   /// The same as a number. Throws UsageError if it is none or out of range.
   double number(const std::string& name, Range range = {}) const;
   int integer(const std::string& name, Range range = {}) const;
-  /// Every value of a repeated option, in order.
+  /// Every value of a repeated option or of positionals, in order.
   const std::vector<std::string>& all(const std::string& name) const;
 
  private:
@@ -66,6 +66,9 @@ class CommandLine {
   /// A required argument without dashes; the order of the calls is that on the command line.
   CommandLine& positional(const std::string& name, const std::string& meaning);
 
+  /// The last of them, which takes all that follow; at least one is required.
+  CommandLine& positionals(const std::string& name, const std::string& meaning);
+
   /// @param arguments without the program's own name; both `--name value` and `--name=value` are understood, and
   ///     everything after a bare `--` is positional. Throws UsageError that names the first wrong argument.
   Arguments parse(const std::vector<std::string>& arguments) const;
@@ -75,7 +78,7 @@ class CommandLine {
   std::string help() const;
 
  private:
-  enum class Kind { kFlag, kOption, kRepeated, kPositional };
+  enum class Kind { kFlag, kOption, kRepeated, kPositional, kPositionals };
   struct Declaration {
     Kind kind;
     std::string name;
@@ -85,9 +88,10 @@ class CommandLine {
     std::vector<std::string> choices;
   };
 
+  static bool isPositional(const Declaration& item);
   Arguments withDefaults() const;
   const Declaration& findOption(const std::string& shown) const;
-  std::vector<const Declaration*> positionals() const;
+  std::vector<const Declaration*> declaredPositionals() const;
   /// Takes the option at `index` with its value; @return the index of the last argument taken.
   std::size_t takeOption(const std::vector<std::string>& arguments, std::size_t index, Arguments& result) const;
   static void store(const Declaration& declaration, const std::string& value, Arguments& result);

@@ -10,12 +10,14 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "slipnav/container/ring_queue.h"
 #include "slipnav/filter/error_dynamics.h"
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/filter/gated_update.h"
+#include "slipnav/filter/innovation.h"
 #include "slipnav/filter/mean_motion.h"
 #include "slipnav/filter/noise_adaptation.h"
 #include "slipnav/filter/slipping_speed.h"
@@ -43,6 +45,9 @@ class FilterEngine {
   /// Takes over gates, noise of measurements and limits of standstill for all steps that are yet to be processed. The
   /// rest of the setup has to be that of the constructor.
   void retune(const FilterSetup& setup);
+
+  /// Tells `sink` of every innovation from now on.
+  void onInnovation(InnovationSink sink) { on_innovation_ = std::move(sink); }
 
   /// Takes a step; one of an old epoch, or out of sequence, is ignored.
   void push(const InsStep& step);
@@ -93,7 +98,8 @@ class FilterEngine {
   bool stand(const WheelMotion& wheels, const BodyMotion& motion);
   bool drive(const WheelMotion& wheels, const BodyMotion& motion);
   void addForwardSpeed(const WheelMotion& wheels, const BodyMotion& motion, MeasurementSet& set);
-  void addConstraints(MeasurementSet& set);
+  void addConstraints(Nanoseconds stamp, MeasurementSet& set);
+  void tell(Component component, Nanoseconds stamp, const Measurement& measurement) const;
   void loosen(const Measurement& forward, Nanoseconds stamp, double jump);
   void noteWheels(const WheelMotion& wheels, double interval_s);
   bool applyFixes(const InsStep& step);
@@ -139,6 +145,7 @@ class FilterEngine {
   MeanMotion average_;              ///< over the wheel interval that is open
   MeanMotion constraint_average_;   ///< over the wheel intervals since the last constraint
   Estimate estimate_;
+  InnovationSink on_innovation_;
 };
 
 }  // namespace slipnav
