@@ -11,4 +11,4 @@ target_include_directories(slipnav_core PUBLIC "${PROJECT_SOURCE_DIR}/include")
 target_include_directories(slipnav_core SYSTEM PUBLIC ${GeographicLib_INCLUDE_DIRS} PRIVATE ${NLOPT_INCLUDE_DIR})
 target_link_libraries(slipnav_core
   PUBLIC Eigen3::Eigen ${GeographicLib_LIBRARIES} ${YAML_CPP_LIBRARIES}
-  PRIVATE ${NLOPT_LIBRARY})
+  PRIVATE ${NLOPT_LIBRARY} Threads::Threads)

@@ -8,8 +8,8 @@ namespace slipnav {
 namespace {
 
 /// S = H P Hᵀ + R of one measurement, and its Cholesky factor.
-struct Innovation {
-  Innovation(const Measurement& m, const ErrorCovariance& P)
+struct PredictedRows {
+  PredictedRows(const Measurement& m, const ErrorCovariance& P)
       : PHt(covarianceWithPrediction(m.H, P)), S(m.H.lazyProduct(PHt)) {
     S.diagonal() += m.variance;
     usable = m.residual.allFinite() && S.allFinite();
@@ -52,12 +52,22 @@ Measurement::Measurement(int rows)
     : residual(Vector::Zero(rows)), H(Jacobian::Zero(rows, kErrorStates)), variance(Vector::Zero(rows)) {}
 
 std::optional<double> normalisedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P) {
-  const Innovation innovation(measurement, P);
+  const PredictedRows innovation(measurement, P);
   if (!innovation.usable) {
     return std::nullopt;
   }
   const Measurement::Vector weighted = innovation.cholesky.solve(measurement.residual);
   return measurement.residual.dot(weighted);
+}
+
+std::optional<InnovationSize> innovationSize(const Measurement& measurement, const ErrorCovariance& P) {
+  const PredictedRows innovation(measurement, P);
+  if (!innovation.usable) {
+    return std::nullopt;
+  }
+  const Measurement::Vector weighted = innovation.cholesky.solve(measurement.residual);
+  return InnovationSize{static_cast<int>(measurement.residual.size()), measurement.residual.dot(weighted),
+                        2.0 * innovation.cholesky.matrixLLT().diagonal().array().log().sum()};
 }
 
 KalmanGain covarianceWithPrediction(const Measurement::Jacobian& H, const ErrorCovariance& P) {
@@ -85,7 +95,7 @@ void addJosephTerms(const KalmanGain& K, const KalmanGain& PHt, const Innovation
 }
 
 std::optional<KalmanGain> updateCovariance(const Measurement& measurement, ErrorCovariance& P) {
-  const Innovation innovation(measurement, P);
+  const PredictedRows innovation(measurement, P);
   if (!innovation.usable) {
     return std::nullopt;
   }
@@ -100,7 +110,7 @@ std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCov
 }
 
 void openCovariance(const Measurement& measurement, ErrorCovariance& P) {
-  const Innovation innovation(measurement, P);
+  const PredictedRows innovation(measurement, P);
   if (!innovation.usable) {
     return;
   }

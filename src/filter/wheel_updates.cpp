@@ -122,13 +122,16 @@ bool FilterEngine::stand(const WheelMotion& wheels, const BodyMotion& motion) {
   MeasurementSet set;
   const ComponentStatus before = update_.status(kZeroVelocity);
   if (use_zupt_) {
+    tell(kZeroVelocity, wheels.stamp, zeroVelocityMeasurement(tremor_.variance(), state_));
     tremor_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
     const Measurement zero = zeroVelocityMeasurement(tremor_.variance(), state_);
     set.add(kZeroVelocity, zero);
   }
   if (use_zaru_) {
-    set.add(kZeroRate, zeroAngularRateMeasurement(setup_.zero, adaptation_.gyroDensity(), motion, state_,
-                                                  planet_.omega_ie_n(state_.position.latitude_rad)));
+    const Measurement rate = zeroAngularRateMeasurement(setup_.zero, adaptation_.gyroDensity(), motion, state_,
+                                                        planet_.omega_ie_n(state_.position.latitude_rad));
+    tell(kZeroRate, wheels.stamp, rate);
+    set.add(kZeroRate, rate);
   }
   const bool corrected = update(set);
   const bool stands = update_.status(kZeroVelocity).accepted > before.accepted;
@@ -178,13 +181,15 @@ bool FilterEngine::drive(const WheelMotion& wheels, const BodyMotion& motion) {
     addForwardSpeed(wheels, motion, set);
     const PlanarMotion wheel_motion = soundMotion(wheels);
     if (wheel_motion.has_yaw_rate) {
-      set.add(kYawRate, yawRateMeasurement(setup_.wheel, wheel_motion.yaw_rate_radps,
-                                           wheels.largest_speed_mps * motion.duration_s, motion));
+      const Measurement rate = yawRateMeasurement(setup_.wheel, wheel_motion.yaw_rate_radps,
+                                                  wheels.largest_speed_mps * motion.duration_s, motion);
+      tell(kYawRate, wheels.stamp, rate);
+      set.add(kYawRate, rate);
     }
   }
   const bool constrained = use_nonholonomic_ && constraintsAreDue();
   if (constrained) {
-    addConstraints(set);
+    addConstraints(wheels.stamp, set);
   }
   const ComponentStatus before = update_.status(kForwardSpeed);
   const bool corrected = update(set);
@@ -213,6 +218,7 @@ void FilterEngine::addForwardSpeed(const WheelMotion& wheels, const BodyMotion& 
   const double slip_variance = P_.block<3, 3>(kWheelScale, kWheelScale).sum();
   const Measurement m = forwardSpeedMeasurement(setup_.wheel, interval, motion, average_.jacobian(), vehicle_,
                                                 slip_variance, adaptation_.factors());
+  tell(kForwardSpeed, wheels.stamp, m);
   const Innovation1 innovation = innovationOf(m, kSlowSlip, P_);
   if (wheels.largest_speed_mps > 0.0) {  // wheels at rest are exact, and say nothing about those that turn
     adaptation_.learnForward(setup_.wheel, interval, innovation);
@@ -238,6 +244,16 @@ void FilterEngine::openSlowSlip() {
   }
 }
 
+/// Before anything is learned from the measurement, or opened for it.
+void FilterEngine::tell(Component component, Nanoseconds stamp, const Measurement& measurement) const {
+  if (!on_innovation_) {
+    return;
+  }
+  if (const std::optional<InnovationSize> size = innovationSize(measurement, P_)) {
+    on_innovation_({stamp, component, *size});
+  }
+}
+
 /// @param jump square of the slip that would explain the innovation
 void FilterEngine::loosen(const Measurement& forward, Nanoseconds stamp, double jump) {
   slipping_way_m_ += way_since_wheels_m_;
@@ -252,7 +268,7 @@ void FilterEngine::loosen(const Measurement& forward, Nanoseconds stamp, double 
   unseen_motion_.doubt(stamp, P_);
 }
 
-void FilterEngine::addConstraints(MeasurementSet& set) {
+void FilterEngine::addConstraints(Nanoseconds stamp, MeasurementSet& set) {
   const BodyMotion motion = *constraint_average_.mean();
   const VelocityJacobian H_v = constraint_average_.jacobian();
   const NoiseFactors factors = adaptation_.factors();
@@ -260,11 +276,13 @@ void FilterEngine::addConstraints(MeasurementSet& set) {
       constraintInformation(setup_.nonholonomic, std::abs(motion.v_eb_b.x()) * motion.duration_s);
   Measurement lateral = lateralMeasurement(setup_.nonholonomic, motion, H_v, vehicle_, factors.lateral);
   lateral.variance /= information;
+  tell(kLateral, stamp, lateral);
   adaptation_.learnLateral(lateral.variance(0), innovationOf(lateral, kSideSlip, P_),
                            state_.q_b_to_n * Vector3::UnitY());
   set.add(kLateral, lateral);
   Measurement vertical = verticalMeasurement(setup_.nonholonomic, motion, H_v, vehicle_, factors.vertical);
   vertical.variance /= information;
+  tell(kVertical, stamp, vertical);
   adaptation_.learnVertical(vertical.variance(0), innovationOf(vertical, kMountPitch, P_));
   set.add(kVertical, vertical);
 }

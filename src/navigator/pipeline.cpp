@@ -13,9 +13,15 @@ Pipeline::Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEng
       navigator_(planet, setup.imu_input, setup.filter),
       health_(setup.filter) {}
 
+void Pipeline::onInnovation(const InnovationSink& sink) {
+  on_innovation_ = sink;
+  navigator_.onInnovation(sink);
+}
+
 void Pipeline::restart() {
   initializer_.reset();
   navigator_ = Navigator(planet_, setup_.imu_input, setup_.filter);
+  navigator_.onInnovation(on_innovation_);
   initial_.reset();
   health_.restart();
   ++counts_.restarts;

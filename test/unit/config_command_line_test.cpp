@@ -56,6 +56,16 @@ TEST(CommandLine, SkipsTheProgramNameOfMain) {
   EXPECT_EQ(sample().parse(2, argv).text("BAG"), "a.bag");
 }
 
+TEST(CommandLine, TheLastPositionalMayTakeSeveral) {
+  CommandLine command_line("drive", "Drives somewhere.");
+  command_line.positionals("BAG", "what to read").option("out", "DIR", "where to");
+  const Arguments arguments = command_line.parse({"a.bag", "--out", "here", "b.bag", "c.bag"});
+  EXPECT_EQ(arguments.all("BAG"), (std::vector<std::string>{"a.bag", "b.bag", "c.bag"}));
+  EXPECT_EQ(arguments.text("out"), "here");
+  EXPECT_EQ(messageOf<UsageError>([&] { command_line.parse(std::vector<std::string>{}); }), "missing argument BAG");
+  EXPECT_NE(command_line.help().find("usage: drive BAG... [options]"), std::string::npos);
+}
+
 TEST(CommandLine, ADoubleDashEndsTheOptions) { EXPECT_EQ(sample().parse({"--", "--help"}).text("BAG"), "--help"); }
 
 TEST(CommandLine, NamesWrongArguments) {

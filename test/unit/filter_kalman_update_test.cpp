@@ -171,6 +171,21 @@ TEST(KalmanUpdate, ConsideredStateIsNotEstimatedButKeepsItsCorrelations) {
   }
 }
 
+TEST(KalmanUpdate, TheSizeOfAnInnovationIsThatOfItsDensity) {
+  sim::RandomStream random(6, "update");
+  for (int rows = 1; rows <= kMaxMeasurementRows; ++rows) {
+    const ErrorCovariance P = randomCovariance(random);
+    const Measurement m = randomMeasurement(random, rows, P);
+    const Eigen::MatrixXd R = m.variance.asDiagonal();
+    const Eigen::MatrixXd S = m.H * P * m.H.transpose() + R;
+    const std::optional<InnovationSize> size = innovationSize(m, P);
+    ASSERT_TRUE(size);
+    EXPECT_EQ(size->rows, rows);
+    EXPECT_NEAR(size->log_determinant, std::log(S.determinant()), 1e-9 * std::abs(std::log(S.determinant())));
+    EXPECT_DOUBLE_EQ(size->squared, *normalisedInnovationSquared(m, P));
+  }
+}
+
 TEST(KalmanUpdate, BadInputLeavesEverythingUntouched) {
   sim::RandomStream random(4, "update");
   ErrorCovariance P = randomCovariance(random);
@@ -179,7 +194,7 @@ TEST(KalmanUpdate, BadInputLeavesEverythingUntouched) {
   const auto isRefused = [&](auto&& change) {
     Measurement bad = good;
     change(bad);
-    return !kalmanUpdate(bad, P) && !normalisedInnovationSquared(bad, P) && P == before;
+    return !kalmanUpdate(bad, P) && !normalisedInnovationSquared(bad, P) && !innovationSize(bad, P) && P == before;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(isRefused([&](Measurement& m) { m.residual(1) = nan; }));

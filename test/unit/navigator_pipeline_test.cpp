@@ -77,6 +77,20 @@ TEST_F(PipelineTest, BeginsAnewWhenTheClockGoesBack) {
   EXPECT_TRUE(estimates_.back().v_eb_n == first.back().v_eb_n);
 }
 
+/// Who listens changes nothing, and goes on listening when the clock has gone back.
+TEST_F(PipelineTest, InnovationsAreToldAcrossRestarts) {
+  feed();
+  const std::vector<NavigationState> silent = estimates_;
+  estimates_.clear();
+  std::vector<Nanoseconds> stamps;
+  pipeline_.onInnovation([&stamps](const Innovation& innovation) { stamps.push_back(innovation.stamp); });
+  feed(-fromSeconds(1000.0));
+  EXPECT_EQ(pipeline_.counts().restarts, 1U);
+  EXPECT_GT(stamps.size(), 100U);
+  ASSERT_EQ(estimates_.size(), silent.size());
+  EXPECT_EQ(estimates_.back().v_eb_n, silent.back().v_eb_n);
+}
+
 /// Stamps of a busy host: the estimate is that of even ones, and the scatter has a name and a size.
 TEST_F(PipelineTest, StampsThatScatterDoNoHarm) {
   feed();

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "slipnav/container/ring_queue.h"
 #include "slipnav/filter/cadence.h"
@@ -18,6 +19,7 @@
 #include "slipnav/filter/filter_data.h"
 #include "slipnav/filter/filter_params.h"
 #include "slipnav/filter/gated_update.h"
+#include "slipnav/filter/innovation.h"
 #include "slipnav/filter/lasting_slip.h"
 #include "slipnav/filter/mean_motion.h"
 #include "slipnav/filter/noise_adaptation.h"
@@ -47,6 +49,9 @@ class FilterEngine {
   /// Takes over gates, noise of measurements and limits of standstill for all steps that are yet to be processed. The
   /// rest of the setup has to be that of the constructor.
   void retune(const FilterSetup& setup);
+
+  /// Tells `sink` of every innovation from now on.
+  void onInnovation(InnovationSink sink) { on_innovation_ = std::move(sink); }
 
   /// Takes a step; one of an old epoch, or out of sequence, is ignored.
   void push(const InsStep& step);
@@ -107,7 +112,8 @@ class FilterEngine {
   bool standOnSpinningWheels(const WheelMotion& wheels, const BodyMotion& motion);
   void openSlowSlip();
   void addForwardSpeed(const WheelMotion& wheels, const BodyMotion& motion, MeasurementSet& set);
-  void addConstraints(MeasurementSet& set);
+  void addConstraints(Nanoseconds stamp, MeasurementSet& set);
+  void tell(Component component, Nanoseconds stamp, const Measurement& measurement) const;
   void loosen(const Measurement& forward, Nanoseconds stamp, double jump);
   void noteWheels(const WheelMotion& wheels, double interval_s);
   bool applyFixes(const InsStep& step);
@@ -159,6 +165,7 @@ class FilterEngine {
   MeanMotion average_;              ///< over the wheel interval that is open
   MeanMotion constraint_average_;   ///< over the wheel intervals since the last constraint
   Estimate estimate_;
+  InnovationSink on_innovation_;
 };
 
 }  // namespace slipnav

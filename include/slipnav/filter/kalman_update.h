@@ -28,6 +28,16 @@ struct Measurement {
 /// Nothing when the residual is not finite or the innovation covariance not positive definite.
 std::optional<double> normalisedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P);
 
+/// An innovation r by its own covariance S = H P Hᵀ + R.
+struct InnovationSize {
+  int rows = 0;
+  double squared = 0.0;          ///< rᵀ S⁻¹ r
+  double log_determinant = 0.0;  ///< ln |S|, in the units of the measurement squared
+};
+
+/// Nothing where normalisedInnovationSquared() has nothing.
+std::optional<InnovationSize> innovationSize(const Measurement& measurement, const ErrorCovariance& P);
+
 using KalmanGain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kErrorStates, kMaxMeasurementRows>;
 
 /// H P Hᵀ + R of one measurement.

@@ -1,6 +1,8 @@
 #pragma once
 /// Mechanisation and filter coupled in one thread: what the nodelets do between them, for everything that runs offline.
 
+#include <utility>
+
 #include "slipnav/filter/filter_engine.h"
 #include "slipnav/ins/ins_engine.h"
 
@@ -13,6 +15,8 @@ class Navigator {
 
   /// Samples that are buffered and later than the initial state are used.
   void initialise(const InitialState& initial);
+  /// See FilterEngine.
+  void onInnovation(InnovationSink sink) { filter_.onInnovation(std::move(sink)); }
   bool isInitialised() const { return filter_.isInitialised(); }
 
   /// Each takes a sample and works off what has become certain by it.

@@ -32,6 +32,9 @@ class Pipeline {
  public:
   Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEngine::EstimateSink sink);
 
+  /// Tells `sink` of every innovation of the filter from now on.
+  void onInnovation(const InnovationSink& sink);
+
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
   /// Satellite position or velocity; once the initialisation has ended, positions with `gnss.use: always` alone.
@@ -60,6 +63,7 @@ class Pipeline {
   std::optional<InitialState> initial_;
   SampleCounts counts_;
   HealthMonitor health_;
+  InnovationSink on_innovation_;
 };
 
 }  // namespace slipnav

@@ -1,0 +1,71 @@
+/// Noise, delay and slip of a robot from its recordings, without truth.
+
+#include <unistd.h>
+
+#include <iostream>
+
+#include "slipnav/config/config_options.h"
+#include "slipnav/eval/atomic_file.h"
+#include "slipnav/parallel/progress_bar.h"
+#include "slipnav/ros/bag_tuning.h"
+#include "slipnav/tuning/tuning_report.h"
+
+namespace {
+
+using slipnav::Arguments;
+using slipnav::CommandLine;
+
+CommandLine commandLine() {
+  CommandLine command_line("tune",
+                           "Noise, stamp delay and slip of a robot from its recordings by maximum likelihood of the "
+                           "innovations. Needs no truth and uses none.");
+  command_line.positionals("BAG", "recordings of ROS 1; of several one set of values for all")
+      .option("out", "YAML", "file to write when tuning is worth it, for --config after the present ones")
+      .repeated("only", "KEY", "tune this parameter and no others");
+  slipnav::declareConfigOptions(command_line);
+  return command_line;
+}
+
+std::vector<slipnav::TuningDrive> readDrives(const std::vector<std::string>& bags, const slipnav::Config& config) {
+  std::vector<slipnav::TuningDrive> drives;
+  for (const std::string& bag : bags) {
+    drives.push_back(slipnav::readTuningDrive(bag, config));
+  }
+  return drives;
+}
+
+int run(int argc, char** argv) {
+  const CommandLine command_line = commandLine();
+  const Arguments arguments = command_line.parse(argc, argv);
+  if (arguments.helpRequested()) {
+    std::cout << command_line.help();
+    return 0;
+  }
+  const slipnav::Config config = slipnav::configFromOptions(arguments);
+  slipnav::ProgressBar bar("tune", std::cerr, isatty(STDERR_FILENO) != 0);
+  const slipnav::TuningResult result =
+      slipnav::tune(slipnav::tuningKnobs(config, arguments.all("only")), readDrives(arguments.all("BAG"), config),
+                    [&bar](const slipnav::TuningProgress& progress) {
+                      bar.show(progress.runs, progress.expected, std::to_string(progress.runs) + " runs");
+                    });
+  bar.finish();
+  std::cout << slipnav::tuningTable(config, result);
+  if (!result.worthwhile) {
+    std::cout << (arguments.given("out") ? "nothing is written to " + arguments.text("out") + "\n" : "");
+    return 0;
+  }
+  const std::string yaml = slipnav::tuningYaml(config, result);
+  std::cout << "\n" << yaml;
+  if (arguments.given("out")) {
+    slipnav::AtomicFile file(arguments.text("out"));
+    file.stream() << yaml;
+    file.commit();
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return slipnav::runGuarded("tune", std::cerr, [argc, argv] { return run(argc, argv); });
+}
