@@ -20,12 +20,13 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from slipnav_tables import output, paper  # noqa: E402
 from slipnav_tables.accuracy import Table1, Table2  # noqa: E402
+from slipnav_tables.clock import Clock  # noqa: E402
 from slipnav_tables.curve import Curve  # noqa: E402
 from slipnav_tables.fleet import Fleet  # noqa: E402
 from slipnav_tables.intervals import Intervals  # noqa: E402
 from slipnav_tables.section import Options  # noqa: E402
 
-SECTIONS = {section.NAME: section for section in (Table1, Table2, Curve, Intervals)}
+SECTIONS = {section.NAME: section for section in (Table1, Table2, Clock, Curve, Intervals)}
 INTERRUPTED = 130
 
 
@@ -101,6 +102,10 @@ def make_tables(arguments):
     drives = list(dict.fromkeys(drive for section in chosen.values() for drive in section.drives(options)))
     os.makedirs(arguments.out, exist_ok=True)
     outcomes = Fleet(arguments.simulate, arguments.jobs).drive_all(drives)
+    if Clock.NAME in chosen:  # what the clocks do follows from what the others did
+        clocks = list(dict.fromkeys(drive for drive in Clock.follow_up(outcomes, options) if drive not in outcomes))
+        outcomes.update(Fleet(arguments.simulate, arguments.jobs).drive_all(clocks))
+        drives += clocks
     outcomes = {drive: outcomes[drive] for drive in drives}
     sections = {name: section.section(outcomes, options) for name, section in chosen.items()}
     output.write_all(arguments.out, sections, outcomes)

@@ -74,6 +74,8 @@ def predicted_and_realised(run):
     countdown.set_xlabel("time [s]; grey: stops")
     if not len(starts):
         error.set_title("no error was forecast in this run")
+    elif not np.isfinite(table["time_to_stop_s"]).any():
+        countdown.set_title("no stop was due: within the horizon no bound came to ε")
     for axes in (error, countdown):
         shade_standstill(axes, run)
         axes.grid(alpha=0.3)

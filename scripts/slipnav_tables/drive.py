@@ -24,10 +24,12 @@ class Drive:
     threshold_m: Optional[float] = None
     settings: Tuple[str, ...] = ()  # BLOCK.KEY=VALUE
     probe_after_stop_s: Optional[float] = None  # read the forecast that is made so long after the first stop
+    with_stretches: bool = False  # also where the stops are not autonomous
 
     def __str__(self):
+        settings = "".join(f" {setting}" for setting in self.settings)
         threshold = "" if self.threshold_m is None else f" ε {self.threshold_m:g} m"
-        return f"{self.terrain} {self.distance_m:g} m {self.policy}{threshold} seed {self.seed}"
+        return f"{self.terrain} {self.distance_m:g} m {self.policy}{threshold}{settings} seed {self.seed}"
 
     def arguments(self, directory):
         """For the executable `simulate`."""
@@ -53,7 +55,7 @@ class Stretch:
 @dataclass(frozen=True)
 class Outcome:
     metrics: dict
-    stretches: List[Stretch]  # of autonomous drives
+    stretches: List[Stretch]  # of autonomous drives, and where they were wanted
     time_to_stop_s: Optional[float]  # what the probed forecast says; infinite beyond its horizon
 
     def as_json(self):
@@ -67,10 +69,11 @@ def read_outcome(drive, directory):
     with open(os.path.join(directory, "metrics.json"), encoding="utf-8") as file:
         metrics = json.load(file)
     stretches, time_to_stop_s = [], None
-    if drive.policy == AUTONOMOUS or drive.probe_after_stop_s is not None:
+    wants_stretches = drive.policy == AUTONOMOUS or drive.with_stretches
+    if wants_stretches or drive.probe_after_stop_s is not None:
         timeline = read_columns(os.path.join(directory, "timeline.csv"),
                                 ("t", "est_e", "est_n", "truth_e", "truth_n", "stationary"))
-        if drive.policy == AUTONOMOUS:
+        if wants_stretches:
             stretches = driving_stretches(timeline)
         if drive.probe_after_stop_s is not None:
             forecasts = read_columns(os.path.join(directory, "forecasts.csv"), ("t", "time_to_stop_s"))

@@ -21,7 +21,7 @@ import scipy.stats
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
-from slipnav_tables import accuracy, curve, drive, intervals, paper, statistics  # noqa: E402
+from slipnav_tables import accuracy, clock, curve, drive, intervals, paper, statistics  # noqa: E402
 from slipnav_tables.section import Options  # noqa: E402
 
 PROGRAM = os.path.join(ROOT, "scripts", "paper_tables.py")
@@ -188,6 +188,23 @@ class CurveTest(unittest.TestCase):
         self.assertIsNone(curve.lower_by_pct(4.0, 0.0))
 
 
+class ClockTest(unittest.TestCase):
+    def test_clock_stops_as_often_and_as_long(self):
+        stretches = [drive.Stretch(50.0, 0.1, False, True), drive.Stretch(70.0, 0.1, True, True),
+                     drive.Stretch(60.0, 0.1, True, False)]
+        driven = outcome(stretches=stretches)
+        driven.metrics.update(stop_rate_pct=2.0, duration_s=200.0)
+        self.assertEqual(clock.policy_of_clock(driven), "periodic:60.00:2.00")
+        self.assertEqual(clock.policy_of_clock(outcome(stretches=stretches[2:])), "none")
+
+    def test_figures_count_every_stretch(self):
+        stretches = [drive.Stretch(50.0, 3.0, False, True), drive.Stretch(70.0, 4.0, True, False)]
+        found = clock.figures([outcome(enu_error_pct=0.4, stretches=stretches), outcome(enu_error_pct=0.2)])
+        self.assertAlmostEqual(found["growth_rms_m"], np.sqrt(12.5))
+        self.assertEqual((found["worst_growth_m"], found["beyond"], found["stretches"]), (4.0, 1, 2))
+        self.assertAlmostEqual(found["enu_error_pct"], 0.3)
+
+
 def heed_interrupts():
     """Processes that a shell runs in the background are told to ignore them, and hand that on."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -234,6 +251,18 @@ class ProgramTest(unittest.TestCase):
         row = next(line for line in self.read("tables.md").splitlines() if "| simulated, 2 drives" in line)
         self.assertEqual([cell.strip() for cell in row.split("|")][4:9],
                          ["151", "200 (200)", "0.20 (0.30)", "5.00 (5.00)", "2 (3)"])
+
+    def test_clocks_follow_from_the_autonomous_drives(self):
+        result = self.run_program(self.fake(), "--only", "clock", "--seeds", "3")
+        self.assertEqual(result.returncode, 1)
+        with open(self.log, encoding="utf-8") as file:
+            policies = [line.split("--policy ")[1].split()[0] for line in file]
+        # 1 s of driving before and after one stop; 5 % of 200 s
+        self.assertEqual(sorted(policies), sorted(3 * len(clock.GROUNDS) * ["autonomous"]
+                                                  + 2 * len(clock.GROUNDS) * ["periodic:1.00:10.00"]))
+        data = json.loads(self.read("tables.json"))["sections"]["clock"]["paved"]
+        self.assertEqual(data["drives"], 2)
+        self.assertEqual(data["autonomous"], data["clock"])
 
     def test_equal_drives_are_driven_once(self):
         self.run_program(self.fake(), "--only", "table1,table2", "--seeds", "1")

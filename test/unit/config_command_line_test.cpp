@@ -118,14 +118,5 @@ TEST(RunGuarded, TurnsExceptionsIntoOneLineAndAStatus) {
   EXPECT_EQ(errors.str(), "drive: bad --seed\ndrive: disk full\n");
 }
 
-TEST(CommandLine, TakesOneOrMoreOfTheLastPositionals) {
-  CommandLine command_line("check", "looks");
-  command_line.positionals("BAG", "recordings").flag("quiet", "says nothing");
-  const Arguments arguments = command_line.parse({"a.bag", "--quiet", "b.bag"});
-  EXPECT_EQ(arguments.all("BAG"), (std::vector<std::string>{"a.bag", "b.bag"}));
-  EXPECT_THROW(command_line.parse(std::vector<std::string>{}), UsageError);
-  EXPECT_NE(command_line.help().find("BAG..."), std::string::npos);
-}
-
 }  // namespace
 }  // namespace slipnav
