@@ -40,8 +40,9 @@ if(SLIPNAV_CLANG_TIDY)
   endif()
 endif()
 
-# Applies the above to one target of this package.
+# Applies the above to one target of this package, and shows it the headers that are not installed.
 function(slipnav_configure_target target)
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
   if(SLIPNAV_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
@@ -55,5 +56,12 @@ function(slipnav_configure_target target)
   endif()
   if(SLIPNAV_CLANG_TIDY)
     set_target_properties(${target} PROPERTIES CXX_CLANG_TIDY "${SLIPNAV_CLANG_TIDY_PROGRAM};--quiet")
+  endif()
+endfunction()
+
+# A shared library that calls what none of its own libraries has does not link. Sanitizers leave their own calls open.
+function(slipnav_refuse_undefined_symbols target)
+  if(NOT SLIPNAV_SANITIZE)
+    target_link_options(${target} PRIVATE -Wl,--no-undefined)
   endif()
 endfunction()

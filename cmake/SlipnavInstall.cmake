@@ -1,6 +1,6 @@
 # Install rules. Executables install themselves in SlipnavTools.
 
-set(installed_libraries slipnav_core)
+set(installed_libraries ${slipnav_layer_libraries})
 foreach(library slipnav_ros slipnav_nodelets)
   if(TARGET ${library})
     list(APPEND installed_libraries ${library})

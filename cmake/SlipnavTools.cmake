@@ -4,11 +4,11 @@
 set(core_tools configuration forecast)
 
 # Target names are shared by a whole workspace, so they carry the package's name; the file does not.
-function(slipnav_add_tool source library)
+function(slipnav_add_tool source)
   get_filename_component(name "${source}" NAME_WE)
   add_executable(slipnav_${name} "${source}")
   slipnav_configure_target(slipnav_${name})
-  target_link_libraries(slipnav_${name} PRIVATE ${library})
+  target_link_libraries(slipnav_${name} PRIVATE ${ARGN})
   set_target_properties(slipnav_${name} PROPERTIES OUTPUT_NAME ${name} INSTALL_RPATH "$ORIGIN/..")
   if(SLIPNAV_CORE_ONLY)
     set_target_properties(slipnav_${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
@@ -25,7 +25,7 @@ file(GLOB tool_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/tools/*.cpp"
 foreach(source IN LISTS tool_sources)
   get_filename_component(name "${source}" NAME_WE)
   if(name IN_LIST core_tools)
-    slipnav_add_tool("${source}" slipnav_core)
+    slipnav_add_tool("${source}" ${slipnav_layer_libraries})
   elseif(TARGET slipnav_ros)
     slipnav_add_tool("${source}" slipnav_ros)
   endif()

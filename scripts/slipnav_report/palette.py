@@ -1,4 +1,4 @@
-"""The colours of include/slipnav/overlay/palette.h, so that plots and rviz look alike; a test compares them."""
+"""The colours of src/overlay/palette.h, so that plots and rviz look alike; a test compares them."""
 
 ESTIMATE = "#0072B2"
 TRUTH = "#E69F00"

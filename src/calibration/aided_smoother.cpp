@@ -1,14 +1,14 @@
-#include "slipnav/calibration/aided_smoother.h"
+#include "calibration/aided_smoother.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <optional>
 #include <utility>
 
-#include "slipnav/filter/error_dynamics.h"
-#include "slipnav/filter/kalman_update.h"
-#include "slipnav/math/square.h"
-#include "slipnav/slip/stationary_detector.h"
+#include "core/base/square.h"
+#include "slipnav/core/ekf/error_dynamics.h"
+#include "slipnav/core/ekf/kalman_update.h"
+#include "slipnav/core/ekf/stationary_detector.h"
 
 namespace slipnav {
 namespace {

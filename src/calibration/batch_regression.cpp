@@ -1,4 +1,4 @@
-#include "slipnav/calibration/batch_regression.h"
+#include "calibration/batch_regression.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

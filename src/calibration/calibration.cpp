@@ -1,14 +1,14 @@
-#include "slipnav/calibration/calibration.h"
+#include "calibration/calibration.h"
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 
-#include "slipnav/calibration/mount_calibration.h"
-#include "slipnav/calibration/start_guess.h"
-#include "slipnav/calibration/wheel_calibration.h"
-#include "slipnav/math/rotation.h"
+#include "calibration/mount_calibration.h"
+#include "calibration/start_guess.h"
+#include "calibration/wheel_calibration.h"
+#include "slipnav/core/base/rotation.h"
 
 namespace slipnav {
 namespace {

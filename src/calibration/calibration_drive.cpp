@@ -1,11 +1,11 @@
-#include "slipnav/calibration/calibration_drive.h"
+#include "calibration/calibration_drive.h"
 
 #include <algorithm>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 
-#include "slipnav/ins/imu_clock.h"
+#include "slipnav/core/ordering/imu_clock.h"
 
 namespace slipnav {
 namespace {

@@ -1,10 +1,10 @@
-#include "slipnav/calibration/calibration_report.h"
+#include "calibration/calibration_report.h"
 
 #include <iomanip>
 #include <locale>
 #include <sstream>
 
-#include "slipnav/config/yaml_writer.h"
+#include "config/yaml_writer.h"
 
 namespace slipnav {
 namespace {

@@ -1,9 +1,9 @@
-#include "slipnav/calibration/drive_motion.h"
+#include "calibration/drive_motion.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/measurement/motion_average.h"
+#include "slipnav/core/ekf/models/motion_average.h"
 
 namespace slipnav {
 namespace {

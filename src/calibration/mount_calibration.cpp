@@ -1,9 +1,9 @@
-#include "slipnav/calibration/mount_calibration.h"
+#include "calibration/mount_calibration.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/calibration/batch_regression.h"
+#include "calibration/batch_regression.h"
 
 namespace slipnav {
 namespace {

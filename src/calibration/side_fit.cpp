@@ -1,11 +1,11 @@
-#include "side_fit.h"
+#include "calibration/side_fit.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
-#include "slipnav/calibration/batch_regression.h"
-#include "slipnav/math/square.h"
+#include "calibration/batch_regression.h"
+#include "core/base/square.h"
 
 namespace slipnav {
 namespace {

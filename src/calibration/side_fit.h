@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "slipnav/calibration/calibration.h"
+#include "calibration/calibration.h"
 
 namespace slipnav {
 

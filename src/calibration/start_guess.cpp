@@ -1,13 +1,13 @@
-#include "slipnav/calibration/start_guess.h"
+#include "calibration/start_guess.h"
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "slipnav/earth/local_frame.h"
-#include "slipnav/eval/alignment.h"
-#include "slipnav/eval/planar_dead_reckoning.h"
-#include "slipnav/ins/levelling.h"
-#include "slipnav/math/rotation.h"
+#include "core/ins/levelling.h"
+#include "evaluation/alignment.h"
+#include "evaluation/planar_dead_reckoning.h"
+#include "slipnav/core/base/rotation.h"
+#include "slipnav/core/earth/local_frame.h"
 
 namespace slipnav {
 namespace {

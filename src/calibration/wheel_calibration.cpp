@@ -1,10 +1,10 @@
-#include "slipnav/calibration/wheel_calibration.h"
+#include "calibration/wheel_calibration.h"
 
 #include <cmath>
 
-#include "side_fit.h"
-#include "slipnav/calibration/batch_regression.h"
-#include "slipnav/math/square.h"
+#include "calibration/batch_regression.h"
+#include "calibration/side_fit.h"
+#include "core/base/square.h"
 
 namespace slipnav {
 namespace {

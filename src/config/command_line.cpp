@@ -1,11 +1,11 @@
-#include "slipnav/config/command_line.h"
+#include "config/command_line.h"
 
 #include <algorithm>
 #include <ostream>
 #include <utility>
 
-#include "slipnav/config/parameter_checker.h"
-#include "slipnav/config/text.h"
+#include "core/base/text.h"
+#include "core/parameters/parameter_checker.h"
 
 namespace slipnav {
 namespace {

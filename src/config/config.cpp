@@ -1,9 +1,9 @@
-#include "slipnav/config/config.h"
+#include "config/config.h"
 
 #include <stdexcept>
 
-#include "slipnav/config/yaml_document.h"
-#include "slipnav/config/yaml_reader.h"
+#include "config/yaml_document.h"
+#include "config/yaml_reader.h"
 
 namespace slipnav {
 namespace {

@@ -1,6 +1,6 @@
-#include "slipnav/config/config_options.h"
+#include "config/config_options.h"
 
-#include "slipnav/config/legacy_start.h"
+#include "config/legacy_start.h"
 
 namespace slipnav {
 

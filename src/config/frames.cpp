@@ -1,4 +1,4 @@
-#include "slipnav/config/frames.h"
+#include "config/frames.h"
 
 namespace slipnav {
 

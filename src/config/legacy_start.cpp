@@ -1,4 +1,4 @@
-#include "slipnav/config/legacy_start.h"
+#include "config/legacy_start.h"
 
 #include <array>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "slipnav/config/yaml_document.h"
-#include "slipnav/types.h"
+#include "config/yaml_document.h"
+#include "slipnav/core/base/types.h"
 
 namespace slipnav {
 namespace {

@@ -1,10 +1,10 @@
-#include "slipnav/config/markdown_writer.h"
+#include "config/markdown_writer.h"
 
 #include <algorithm>
 #include <iterator>
 
-#include "slipnav/config/parameter_checker.h"
-#include "slipnav/config/text.h"
+#include "core/base/text.h"
+#include "core/parameters/parameter_checker.h"
 
 namespace slipnav {
 namespace {

@@ -1,10 +1,10 @@
-#include "slipnav/config/override.h"
+#include "config/override.h"
 
 #include <sstream>
 #include <stdexcept>
 
-#include "slipnav/config/yaml_document.h"
-#include "slipnav/config/yaml_writer.h"
+#include "config/yaml_document.h"
+#include "config/yaml_writer.h"
 
 namespace slipnav {
 namespace {

@@ -1,9 +1,9 @@
-#include "slipnav/config/parameter_list.h"
+#include "config/parameter_list.h"
 
 #include <utility>
 
-#include "slipnav/config/text.h"
-#include "slipnav/config/yaml_writer.h"
+#include "config/yaml_writer.h"
+#include "core/base/text.h"
 
 namespace slipnav {
 

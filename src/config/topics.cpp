@@ -1,6 +1,6 @@
-#include "slipnav/config/topics.h"
+#include "config/topics.h"
 
-#include "slipnav/config/sensor_topics.h"
+#include "config/sensor_topics.h"
 
 namespace slipnav {
 

@@ -1,11 +1,11 @@
-#include "slipnav/config/tuning.h"
+#include "config/tuning.h"
 
 #include <algorithm>
 #include <map>
 #include <sstream>
 
-#include "slipnav/config/override.h"
-#include "slipnav/config/yaml_reader.h"
+#include "config/override.h"
+#include "config/yaml_reader.h"
 
 namespace slipnav {
 namespace {

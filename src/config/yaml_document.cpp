@@ -1,4 +1,4 @@
-#include "slipnav/config/yaml_document.h"
+#include "config/yaml_document.h"
 
 #include <stdexcept>
 

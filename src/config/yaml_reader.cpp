@@ -1,12 +1,12 @@
-#include "slipnav/config/yaml_reader.h"
+#include "config/yaml_reader.h"
 
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
 
-#include "slipnav/config/parameter_checker.h"
-#include "slipnav/config/text.h"
-#include "slipnav/config/yaml_document.h"
+#include "config/yaml_document.h"
+#include "core/base/text.h"
+#include "core/parameters/parameter_checker.h"
 
 namespace slipnav {
 namespace {

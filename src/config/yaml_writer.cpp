@@ -1,11 +1,11 @@
-#include "slipnav/config/yaml_writer.h"
+#include "config/yaml_writer.h"
 
 #include <algorithm>
 #include <cctype>
 #include <sstream>
 
-#include "slipnav/config/parameter_checker.h"
-#include "slipnav/config/text.h"
+#include "core/base/text.h"
+#include "core/parameters/parameter_checker.h"
 
 namespace slipnav {
 namespace {

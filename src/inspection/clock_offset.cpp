@@ -1,10 +1,10 @@
-#include "slipnav/inspection/clock_offset.h"
+#include "inspection/clock_offset.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "slipnav/math/square.h"
+#include "core/base/square.h"
 
 namespace slipnav {
 namespace {

@@ -1,10 +1,10 @@
-#include "slipnav/inspection/configuration_proposal.h"
+#include "inspection/configuration_proposal.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/config/text.h"
-#include "slipnav/config/yaml_writer.h"
+#include "config/yaml_writer.h"
+#include "core/base/text.h"
 
 namespace slipnav {
 namespace {

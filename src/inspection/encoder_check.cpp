@@ -1,11 +1,11 @@
-#include "slipnav/inspection/encoder_check.h"
+#include "inspection/encoder_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "slipnav/eval/statistics.h"
-#include "slipnav/math/square.h"
+#include "core/base/square.h"
+#include "core/base/statistics.h"
 
 namespace slipnav {
 namespace {

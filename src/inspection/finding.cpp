@@ -1,4 +1,4 @@
-#include "slipnav/inspection/finding.h"
+#include "inspection/finding.h"
 
 #include <algorithm>
 #include <cmath>

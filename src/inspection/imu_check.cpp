@@ -1,11 +1,11 @@
-#include "slipnav/inspection/imu_check.h"
+#include "inspection/imu_check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/eval/statistics.h"
-#include "slipnav/math/rotation.h"
-#include "slipnav/navigator/input_check.h"
+#include "core/base/statistics.h"
+#include "slipnav/core/base/rotation.h"
+#include "slipnav/core/navigation/input_check.h"
 
 namespace slipnav {
 namespace {

@@ -1,9 +1,9 @@
-#include "slipnav/inspection/imu_track.h"
+#include "inspection/imu_track.h"
 
 #include <algorithm>
 
-#include "slipnav/ins/imu_screen.h"
-#include "slipnav/inspection/stream_check.h"
+#include "inspection/stream_check.h"
+#include "slipnav/core/sensors/imu_screen.h"
 
 namespace slipnav {
 

@@ -1,13 +1,13 @@
-#include "slipnav/inspection/inspection.h"
+#include "inspection/inspection.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/filter/filter_data.h"
-#include "slipnav/inspection/encoder_check.h"
-#include "slipnav/inspection/stream_check.h"
-#include "slipnav/navigator/input_check.h"
-#include "slipnav/navigator/stamp_watch.h"
+#include "core/ordering/stamp_watch.h"
+#include "inspection/encoder_check.h"
+#include "inspection/stream_check.h"
+#include "slipnav/core/ekf/engine/filter_data.h"
+#include "slipnav/core/navigation/input_check.h"
 
 namespace slipnav {
 namespace {

@@ -1,9 +1,9 @@
-#include "slipnav/inspection/motion_table.h"
+#include "inspection/motion_table.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/math/rotation.h"
+#include "slipnav/core/base/rotation.h"
 
 namespace slipnav {
 namespace {

@@ -1,4 +1,4 @@
-#include "slipnav/inspection/mounting.h"
+#include "inspection/mounting.h"
 
 #include <algorithm>
 #include <array>
@@ -6,9 +6,9 @@
 #include <complex>
 #include <stdexcept>
 
-#include "slipnav/calibration/batch_regression.h"
-#include "slipnav/math/rotation.h"
-#include "slipnav/math/square.h"
+#include "calibration/batch_regression.h"
+#include "core/base/square.h"
+#include "slipnav/core/base/rotation.h"
 
 namespace slipnav {
 namespace {

@@ -1,13 +1,13 @@
-#include "slipnav/inspection/position_check.h"
+#include "inspection/position_check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/earth/planet.h"
-#include "slipnav/eval/statistics.h"
-#include "slipnav/eval/truth_gate.h"
-#include "slipnav/inspection/stream_check.h"
-#include "slipnav/measurement/gnss_fix.h"
+#include "core/base/statistics.h"
+#include "evaluation/truth_gate.h"
+#include "inspection/stream_check.h"
+#include "slipnav/core/earth/planet.h"
+#include "slipnav/core/ekf/models/gnss_fix.h"
 
 namespace slipnav {
 namespace {

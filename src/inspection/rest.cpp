@@ -1,4 +1,4 @@
-#include "slipnav/inspection/rest.h"
+#include "inspection/rest.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "slipnav/inspection/roles.h"
+#include "inspection/roles.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "slipnav/inspection/wheel_choice.h"
+#include "inspection/wheel_choice.h"
 
 namespace slipnav {
 namespace {

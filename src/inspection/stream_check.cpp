@@ -1,9 +1,9 @@
-#include "slipnav/inspection/stream_check.h"
+#include "inspection/stream_check.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/eval/statistics.h"
+#include "core/base/statistics.h"
 
 namespace slipnav {
 namespace {

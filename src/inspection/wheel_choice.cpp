@@ -1,4 +1,4 @@
-#include "slipnav/inspection/wheel_choice.h"
+#include "inspection/wheel_choice.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,11 @@
-#include "slipnav/inspection/wheel_track.h"
+#include "inspection/wheel_track.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/eval/statistics.h"
-#include "slipnav/inspection/stream_check.h"
-#include "slipnav/measurement/wheel_decoder.h"
+#include "core/base/statistics.h"
+#include "core/sensors/wheel_decoder.h"
+#include "inspection/stream_check.h"
 
 namespace slipnav {
 namespace {

@@ -12,12 +12,12 @@
 #include <optional>
 #include <string>
 
-#include "slipnav/forecast/forecaster.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/forecast_messages.h"
-#include "slipnav/ros/internal_messages.h"
-#include "slipnav/ros/internal_topics.h"
+#include "core/forecast/forecaster.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/forecast_messages.h"
+#include "ros/messages/internal_messages.h"
+#include "ros/runtime/core_nodelet.h"
+#include "ros/runtime/internal_topics.h"
 
 namespace slipnav {
 

@@ -20,21 +20,21 @@
 #include <stdexcept>
 #include <utility>
 
-#include "slipnav/config/text.h"
-#include "slipnav/ins/imu_clock.h"
-#include "slipnav/math/rotation.h"
-#include "slipnav/navigator/initializer.h"
-#include "slipnav/navigator/resumption.h"
-#include "slipnav/navigator/sample_merger.h"
-#include "slipnav/navigator/stamp_watch.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/health_report.h"
-#include "slipnav/ros/imu_input.h"
-#include "slipnav/ros/internal_messages.h"
-#include "slipnav/ros/internal_topics.h"
-#include "slipnav/ros/patience.h"
-#include "slipnav/ros/wheel_input.h"
+#include "core/base/text.h"
+#include "core/navigation/patience.h"
+#include "core/navigation/resumption.h"
+#include "core/navigation/sample_merger.h"
+#include "core/ordering/stamp_watch.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/imu_input.h"
+#include "ros/messages/internal_messages.h"
+#include "ros/messages/wheel_input.h"
+#include "ros/runtime/core_nodelet.h"
+#include "ros/runtime/health_report.h"
+#include "ros/runtime/internal_topics.h"
+#include "slipnav/core/base/rotation.h"
+#include "slipnav/core/navigation/initializer.h"
+#include "slipnav/core/ordering/imu_clock.h"
 
 namespace slipnav {
 

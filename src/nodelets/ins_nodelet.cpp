@@ -11,20 +11,20 @@
 #include <boost/make_shared.hpp>
 #include <optional>
 
-#include "slipnav/ins/imu_clock.h"
-#include "slipnav/ins/ins_engine.h"
-#include "slipnav/navigator/continuous_time.h"
-#include "slipnav/navigator/health.h"
-#include "slipnav/navigator/imu_sorter.h"
-#include "slipnav/navigator/jump_filter.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/health_report.h"
-#include "slipnav/ros/imu_input.h"
-#include "slipnav/ros/internal_messages.h"
-#include "slipnav/ros/internal_topics.h"
-#include "slipnav/ros/latency_meter.h"
-#include "slipnav/ros/sensor_watch.h"
+#include "core/ordering/continuous_time.h"
+#include "core/ordering/imu_sorter.h"
+#include "core/ordering/jump_filter.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/imu_input.h"
+#include "ros/messages/internal_messages.h"
+#include "ros/replay/latency_meter.h"
+#include "ros/runtime/core_nodelet.h"
+#include "ros/runtime/health_report.h"
+#include "ros/runtime/internal_topics.h"
+#include "ros/runtime/sensor_watch.h"
+#include "slipnav/core/ins/ins_engine.h"
+#include "slipnav/core/navigation/health.h"
+#include "slipnav/core/ordering/imu_clock.h"
 
 namespace slipnav {
 

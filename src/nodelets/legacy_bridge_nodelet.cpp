@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/legacy_messages.h"
+#include "ros/messages/legacy_messages.h"
+#include "ros/runtime/core_nodelet.h"
 
 namespace slipnav {
 

@@ -21,13 +21,13 @@
 #include <cmath>
 #include <optional>
 
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/imu_input.h"
-#include "slipnav/ros/internal_topics.h"
-#include "slipnav/ros/model_joints.h"
-#include "slipnav/ros/overlay_markers.h"
-#include "slipnav/ros/wheel_input.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/imu_input.h"
+#include "ros/messages/wheel_input.h"
+#include "ros/runtime/core_nodelet.h"
+#include "ros/runtime/internal_topics.h"
+#include "ros/rviz/model_joints.h"
+#include "ros/rviz/overlay_markers.h"
 
 namespace slipnav {
 

@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <memory>
 
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/sensor_publisher.h"
-#include "slipnav/ros/stop_messages.h"
+#include "evaluation/simulated_drive.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/stop_messages.h"
+#include "ros/runtime/core_nodelet.h"
+#include "ros/simulation/sensor_publisher.h"
 
 namespace slipnav {
 

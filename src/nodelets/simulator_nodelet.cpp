@@ -23,18 +23,18 @@
 #include <string>
 #include <vector>
 
-#include "simulation_options.h"
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/navigator/pipeline.h"
-#include "slipnav/ros/bag_writer.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/endurance_watch.h"
-#include "slipnav/ros/internal_topics.h"
-#include "slipnav/ros/node_process.h"
-#include "slipnav/ros/sensor_publisher.h"
-#include "slipnav/ros/simulation_result.h"
-#include "slipnav/ros/stop_messages.h"
+#include "evaluation/simulated_drive.h"
+#include "nodelets/simulation_options.h"
+#include "ros/bag/bag_writer.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/stop_messages.h"
+#include "ros/replay/endurance_watch.h"
+#include "ros/replay/node_process.h"
+#include "ros/runtime/core_nodelet.h"
+#include "ros/runtime/internal_topics.h"
+#include "ros/simulation/sensor_publisher.h"
+#include "ros/simulation/simulation_result.h"
+#include "slipnav/core/navigation/pipeline.h"
 
 namespace slipnav {
 namespace {

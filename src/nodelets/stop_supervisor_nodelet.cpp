@@ -20,18 +20,18 @@
 #include <stdexcept>
 #include <string>
 
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/core_nodelet.h"
-#include "slipnav/ros/fit_to_drive.h"
-#include "slipnav/ros/forecast_gate.h"
-#include "slipnav/ros/internal_topics.h"
-#include "slipnav/ros/silence_watch.h"
-#include "slipnav/ros/stop_latch_keeper.h"
-#include "slipnav/ros/stop_messages.h"
-#include "slipnav/ros/stop_outputs.h"
-#include "slipnav/ros/topic_graph.h"
-#include "slipnav/stop/obedience_watch.h"
-#include "slipnav/stop/stop_reach.h"
+#include "core/base/silence_watch.h"
+#include "core/stopping/forecast_gate.h"
+#include "core/stopping/obedience_watch.h"
+#include "core/stopping/stop_reach.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/stop_messages.h"
+#include "ros/messages/stop_outputs.h"
+#include "ros/runtime/core_nodelet.h"
+#include "ros/runtime/fit_to_drive.h"
+#include "ros/runtime/internal_topics.h"
+#include "ros/runtime/stop_latch_keeper.h"
+#include "ros/runtime/topic_graph.h"
 
 namespace slipnav {
 

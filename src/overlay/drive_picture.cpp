@@ -1,4 +1,4 @@
-#include "slipnav/overlay/drive_picture.h"
+#include "overlay/drive_picture.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "slipnav/overlay/palette.h"
+#include "overlay/palette.h"
 
 #include <algorithm>
 #include <cmath>

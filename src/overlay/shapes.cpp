@@ -1,4 +1,4 @@
-#include "slipnav/overlay/shapes.h"
+#include "overlay/shapes.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "slipnav/overlay/stop_log.h"
+#include "overlay/stop_log.h"
 
 namespace slipnav {
 namespace {

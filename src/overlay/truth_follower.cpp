@@ -1,4 +1,4 @@
-#include "slipnav/overlay/truth_follower.h"
+#include "overlay/truth_follower.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "slipnav/overlay/wheel_path.h"
+#include "overlay/wheel_path.h"
 
 #include <cmath>
 #include <limits>

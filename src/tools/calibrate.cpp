@@ -2,10 +2,10 @@
 
 #include <iostream>
 
-#include "slipnav/calibration/calibration_report.h"
-#include "slipnav/config/config_options.h"
-#include "slipnav/eval/atomic_file.h"
-#include "slipnav/ros/bag_calibration.h"
+#include "calibration/calibration_report.h"
+#include "config/config_options.h"
+#include "core/base/atomic_file.h"
+#include "ros/bag/bag_calibration.h"
 
 namespace {
 

@@ -3,12 +3,12 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "slipnav/config/config_options.h"
-#include "slipnav/eval/atomic_file.h"
-#include "slipnav/eval/rtklib_pos.h"
-#include "slipnav/inspection/configuration_proposal.h"
-#include "slipnav/inspection/inspection.h"
-#include "slipnav/ros/bag_inspection.h"
+#include "config/config_options.h"
+#include "core/base/atomic_file.h"
+#include "inspection/configuration_proposal.h"
+#include "inspection/inspection.h"
+#include "io/rtklib_pos.h"
+#include "ros/bag/bag_inspection.h"
 
 namespace {
 

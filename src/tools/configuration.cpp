@@ -2,11 +2,11 @@
 
 #include <iostream>
 
-#include "slipnav/config/command_line.h"
-#include "slipnav/config/config_options.h"
-#include "slipnav/config/markdown_writer.h"
-#include "slipnav/config/tuning.h"
-#include "slipnav/config/yaml_writer.h"
+#include "config/command_line.h"
+#include "config/config_options.h"
+#include "config/markdown_writer.h"
+#include "config/tuning.h"
+#include "config/yaml_writer.h"
 
 namespace {
 

@@ -2,11 +2,11 @@
 
 #include <iostream>
 
-#include "slipnav/config/config_options.h"
-#include "slipnav/eval/alarm_text.h"
-#include "slipnav/eval/atomic_file.h"
-#include "slipnav/eval/report.h"
-#include "slipnav/ros/bag_evaluation.h"
+#include "config/config_options.h"
+#include "core/base/atomic_file.h"
+#include "evaluation/alarm_text.h"
+#include "evaluation/report.h"
+#include "ros/bag/bag_evaluation.h"
 
 namespace {
 

@@ -7,13 +7,13 @@
 #include <optional>
 #include <random>
 
-#include "slipnav/config/config_options.h"
-#include "slipnav/eval/atomic_file.h"
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/ros/bag_evaluation.h"
-#include "slipnav/ros/bag_writer.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/fault_injection.h"
+#include "config/config_options.h"
+#include "core/base/atomic_file.h"
+#include "evaluation/simulated_drive.h"
+#include "ros/bag/bag_evaluation.h"
+#include "ros/bag/bag_writer.h"
+#include "ros/bag/fault_injection.h"
+#include "ros/messages/conversions.h"
 
 namespace {
 

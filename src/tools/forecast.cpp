@@ -2,9 +2,9 @@
 
 #include <iostream>
 
-#include "slipnav/config/command_line.h"
-#include "slipnav/eval/atomic_file.h"
-#include "slipnav/forecast/slip_forecast.h"
+#include "config/command_line.h"
+#include "core/base/atomic_file.h"
+#include "evaluation/slip_forecast.h"
 
 namespace {
 

@@ -16,16 +16,16 @@
 #include <utility>
 #include <vector>
 
-#include "slipnav/config/command_line.h"
-#include "slipnav/config/text.h"
-#include "slipnav/eval/limit_table.h"
-#include "slipnav/eval/statistics.h"
-#include "slipnav/ros/bag_evaluation.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/node_process.h"
-#include "slipnav/ros/parameters.h"
-#include "slipnav/ros/replay_session.h"
-#include "slipnav/ros/ros_arguments.h"
+#include "config/command_line.h"
+#include "core/base/statistics.h"
+#include "core/base/text.h"
+#include "evaluation/limit_table.h"
+#include "ros/bag/bag_evaluation.h"
+#include "ros/messages/conversions.h"
+#include "ros/replay/node_process.h"
+#include "ros/replay/replay_session.h"
+#include "ros/runtime/parameters.h"
+#include "ros/runtime/ros_arguments.h"
 
 namespace {
 

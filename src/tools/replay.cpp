@@ -5,13 +5,13 @@
 
 #include <iostream>
 
-#include "slipnav/config/command_line.h"
-#include "slipnav/eval/report.h"
-#include "slipnav/eval/track_comparison.h"
-#include "slipnav/ros/bag_evaluation.h"
-#include "slipnav/ros/parameters.h"
-#include "slipnav/ros/replay_session.h"
-#include "slipnav/ros/ros_arguments.h"
+#include "config/command_line.h"
+#include "evaluation/report.h"
+#include "evaluation/track_comparison.h"
+#include "ros/bag/bag_evaluation.h"
+#include "ros/replay/replay_session.h"
+#include "ros/runtime/parameters.h"
+#include "ros/runtime/ros_arguments.h"
 
 namespace {
 

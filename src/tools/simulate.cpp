@@ -6,14 +6,14 @@
 #include <iostream>
 #include <optional>
 
-#include "slipnav/config/command_line.h"
-#include "slipnav/config/config_options.h"
-#include "slipnav/eval/atomic_file.h"
-#include "slipnav/eval/simulated_run.h"
-#include "slipnav/ros/bag_evaluation.h"
-#include "slipnav/ros/bag_writer.h"
-#include "slipnav/ros/child_process.h"
-#include "slipnav/sim/world_files.h"
+#include "config/command_line.h"
+#include "config/config_options.h"
+#include "core/base/atomic_file.h"
+#include "evaluation/simulated_run.h"
+#include "ros/bag/bag_evaluation.h"
+#include "ros/bag/bag_writer.h"
+#include "ros/runtime/child_process.h"
+#include "simulation/world_files.h"
 
 namespace {
 

@@ -4,11 +4,11 @@
 
 #include <iostream>
 
-#include "slipnav/config/config_options.h"
-#include "slipnav/eval/atomic_file.h"
-#include "slipnav/parallel/progress_bar.h"
-#include "slipnav/ros/bag_tuning.h"
-#include "slipnav/tuning/tuning_report.h"
+#include "config/config_options.h"
+#include "core/base/atomic_file.h"
+#include "evaluation/progress_bar.h"
+#include "ros/bag/bag_tuning.h"
+#include "tuning/tuning_report.h"
 
 namespace {
 

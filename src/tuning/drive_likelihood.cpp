@@ -1,10 +1,10 @@
-#include "slipnav/tuning/drive_likelihood.h"
+#include "tuning/drive_likelihood.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "slipnav/filter/kalman_update.h"
-#include "slipnav/navigator/pipeline.h"
+#include "slipnav/core/ekf/kalman_update.h"
+#include "slipnav/core/navigation/pipeline.h"
 
 namespace slipnav {
 namespace {

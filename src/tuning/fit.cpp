@@ -1,10 +1,10 @@
-#include "slipnav/tuning/fit.h"
+#include "tuning/fit.h"
 
 #include <Eigen/Eigenvalues>
 #include <limits>
 #include <nlopt.hpp>
 
-#include "slipnav/math/square.h"
+#include "core/base/square.h"
 
 namespace slipnav {
 namespace {

@@ -1,4 +1,4 @@
-#include "slipnav/tuning/gain.h"
+#include "tuning/gain.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,12 +1,12 @@
-#include "slipnav/tuning/knob.h"
+#include "tuning/knob.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
 
-#include "slipnav/config/text.h"
-#include "slipnav/config/tuning.h"
+#include "config/tuning.h"
+#include "core/base/text.h"
 
 namespace slipnav {
 namespace {

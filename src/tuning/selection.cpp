@@ -1,11 +1,11 @@
-#include "slipnav/tuning/selection.h"
+#include "tuning/selection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <optional>
 
-#include "slipnav/math/square.h"
+#include "core/base/square.h"
 
 namespace slipnav {
 namespace {

@@ -1,4 +1,4 @@
-#include "slipnav/tuning/tuner.h"
+#include "tuning/tuner.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "slipnav/math/square.h"
-#include "slipnav/tuning/fit.h"
+#include "core/base/square.h"
+#include "tuning/fit.h"
 
 namespace slipnav {
 namespace {

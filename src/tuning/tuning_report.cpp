@@ -1,4 +1,4 @@
-#include "slipnav/tuning/tuning_report.h"
+#include "tuning/tuning_report.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <sstream>
 #include <vector>
 
-#include "slipnav/config/override.h"
-#include "slipnav/config/parameter_list.h"
-#include "slipnav/config/yaml_document.h"
+#include "config/override.h"
+#include "config/parameter_list.h"
+#include "config/yaml_document.h"
 
 namespace slipnav {
 namespace {

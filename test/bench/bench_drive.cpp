@@ -4,10 +4,10 @@
 #include <cmath>
 #include <ctime>
 
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/navigator/pipeline.h"
-#include "slipnav/slip/slip_ratio.h"
-#include "slipnav/slip/vehicle_slip.h"
+#include "core/slip/slip_ratio.h"
+#include "core/slip/vehicle_slip.h"
+#include "evaluation/simulated_drive.h"
+#include "slipnav/core/navigation/pipeline.h"
 #include "support/gp_golden.h"
 
 namespace slipnav::bench {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "slipnav/config/config.h"
-#include "slipnav/forecast/slip_window.h"
-#include "slipnav/sim/simulator.h"
+#include "config/config.h"
+#include "core/forecast/slip_window.h"
+#include "simulation/simulator.h"
 
 namespace slipnav::bench {
 

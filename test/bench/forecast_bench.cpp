@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "bench_drive.h"
-#include "slipnav/filter/error_dynamics.h"
-#include "slipnav/forecast/gaussian_process_slip_model.h"
-#include "slipnav/forecast/slip_correlation.h"
+#include "core/forecast/gaussian_process_slip_model.h"
+#include "core/forecast/slip_correlation.h"
+#include "slipnav/core/ekf/error_dynamics.h"
 
 namespace slipnav::bench {
 namespace {

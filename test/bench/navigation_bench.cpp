@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "bench_drive.h"
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/forecast/forecaster.h"
-#include "slipnav/navigator/pipeline.h"
+#include "core/forecast/forecaster.h"
+#include "evaluation/simulated_drive.h"
+#include "slipnav/core/navigation/pipeline.h"
 
 namespace slipnav::bench {
 namespace {

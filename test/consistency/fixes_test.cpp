@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "slipnav/eval/simulated_run.h"
+#include "evaluation/simulated_run.h"
 
 namespace slipnav {
 namespace {

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "slipnav/config/config.h"
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/forecast/forecaster.h"
-#include "slipnav/navigator/pipeline.h"
+#include "config/config.h"
+#include "core/forecast/forecaster.h"
+#include "evaluation/simulated_drive.h"
+#include "slipnav/core/navigation/pipeline.h"
 
 namespace slipnav::test {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "slipnav/eval/alarm_text.h"
-#include "slipnav/eval/simulated_run.h"
+#include "evaluation/alarm_text.h"
+#include "evaluation/simulated_run.h"
 
 namespace slipnav {
 namespace {

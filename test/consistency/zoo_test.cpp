@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "slipnav/eval/simulated_run.h"
-#include "slipnav/sim/world_files.h"
+#include "evaluation/simulated_run.h"
+#include "simulation/world_files.h"
 
 namespace slipnav::test {
 namespace {

@@ -27,8 +27,9 @@ def read(path):
 
 
 def finds(path):
-    """Whether a path, maybe with stars, is a file from the top or from include/slipnav, or a file name in there."""
-    places = (path, f"include/slipnav/{path}", f"include/slipnav/**/{path}", f"scripts/**/{path}", f"test/**/{path}",
+    """Whether a path, maybe with stars, is a file from the top or from include/slipnav or src, or a file name there."""
+    places = (path, f"include/slipnav/{path}", f"include/slipnav/**/{path}", f"src/**/{path}",
+              f"scripts/**/{path}", f"test/**/{path}",
               f"launch/{path}")
     return any(glob.glob(os.path.join(ROOT, place), recursive=True) for place in places)
 
@@ -56,14 +57,14 @@ def nodelet_sources():
         yield re.search(r"^/// slipnav/(\w+):", text).group(1), text
     for name, nodelets_of_file in PUBLISHERS.items():
         for nodelet in nodelets_of_file:
-            yield nodelet, read(f"src/ros/{name}")
+            yield nodelet, read(glob.glob(os.path.join(ROOT, "src/ros/*", name))[0])
 
 
 def topic_names():
     """Default topic by what the code calls it: a field of TopicNames or a constant of internal_topics.h."""
     keys = dict(re.findall(r'v\.text\("([^"]+)", (\w+)', read("src/config/topics.cpp")))
     names = {f"{block}.{field}": key for key, field in keys.items() for block in ("config.topics", "topics", "topics_")}
-    names.update(re.findall(r'\* (k\w+Topic) = "([^"]+)"', read("include/slipnav/ros/internal_topics.h")))
+    names.update(re.findall(r'\* (k\w+Topic) = "([^"]+)"', read("src/ros/runtime/internal_topics.h")))
     return names
 
 
@@ -159,17 +160,17 @@ def diagnostic_texts():
         texts.update(literals(body_of(function, read("src/nodelets/stop_supervisor_nodelet.cpp"))))
     texts.update(literals(body_of("failureOfImu", read("src/nodelets/ins_nodelet.cpp"))))
     texts.update(literals(body_of("troubleOf", read("src/nodelets/forecast_nodelet.cpp"))))
-    texts.update(literals(body_of("problem", read("include/slipnav/ros/sensor_watch.h"))))
-    texts.update(literals(body_of("FitToDrive::verdict", read("src/ros/fit_to_drive.cpp"))))
+    texts.update(literals(body_of("problem", read("src/ros/runtime/sensor_watch.h"))))
+    texts.update(literals(body_of("FitToDrive::verdict", read("src/ros/runtime/fit_to_drive.cpp"))))
     for function in ("whyNoEmergencyStop", "whyNoStop"):
-        texts.update(literals(body_of(function, read("src/stop/stop_reach.cpp"))))
-    health = read("src/navigator/health.cpp")
+        texts.update(literals(body_of(function, read("src/core/stopping/stop_reach.cpp"))))
+    health = read("src/core/navigation/health.cpp")
     texts.update(text for statement in re.findall(r"note\((.*?)\);", health) for text in literals(statement))
-    texts.update(literals(body_of("complaintOf", read("src/ins/imu_screen.cpp"))))
-    texts.update(literals(body_of("componentName", read("src/filter/filter_data.cpp"))))
-    progress = body_of("Initializer::progress", read("src/navigator/initializer.cpp"))
+    texts.update(literals(body_of("complaintOf", read("src/core/sensors/imu_screen.cpp"))))
+    texts.update(literals(body_of("componentName", read("src/core/ekf/engine/filter_data.cpp"))))
+    progress = body_of("Initializer::progress", read("src/core/navigation/initializer.cpp"))
     texts.update(text for statement in re.findall(r"return (.*?);", progress) for text in literals(statement))
-    texts.update(text for statement in re.findall(r"refuse\((.*?)\);", read("src/navigator/checkpoint.cpp"))
+    texts.update(text for statement in re.findall(r"refuse\((.*?)\);", read("src/core/navigation/checkpoint.cpp"))
                  for text in literals(statement)[:1])
     return {fixed_part(text) for text in texts if len(fixed_part(text)) > 2}
 

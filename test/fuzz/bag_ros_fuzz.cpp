@@ -5,8 +5,8 @@
 #include <stdexcept>
 
 #include "fuzz_target.h"
-#include "slipnav/ros/bag_calibration.h"
-#include "slipnav/ros/bag_evaluation.h"
+#include "ros/bag/bag_calibration.h"
+#include "ros/bag/bag_evaluation.h"
 
 namespace {
 

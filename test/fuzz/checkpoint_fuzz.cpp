@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "core/navigation/checkpoint.h"
 #include "fuzz_target.h"
-#include "slipnav/navigator/checkpoint.h"
 
 namespace {
 

@@ -2,10 +2,10 @@
 
 #include <stdexcept>
 
+#include "config/config.h"
+#include "config/yaml_document.h"
+#include "config/yaml_reader.h"
 #include "fuzz_target.h"
-#include "slipnav/config/config.h"
-#include "slipnav/config/yaml_document.h"
-#include "slipnav/config/yaml_reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

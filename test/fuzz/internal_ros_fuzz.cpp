@@ -10,17 +10,17 @@
 #include <optional>
 #include <stdexcept>
 
+#include "config/config.h"
+#include "core/forecast/forecaster.h"
+#include "core/navigation/look_ahead.h"
+#include "core/navigation/patience.h"
+#include "core/stopping/forecast_gate.h"
 #include "fuzz_target.h"
 #include "message_reader.h"
-#include "slipnav/config/config.h"
-#include "slipnav/filter/filter_engine.h"
-#include "slipnav/forecast/forecaster.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/forecast_gate.h"
-#include "slipnav/ros/internal_messages.h"
-#include "slipnav/ros/look_ahead.h"
-#include "slipnav/ros/patience.h"
-#include "slipnav/ros/stop_messages.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/internal_messages.h"
+#include "ros/messages/stop_messages.h"
+#include "slipnav/core/ekf/engine/filter_engine.h"
 
 namespace {
 

@@ -5,15 +5,15 @@
 #include <cstdlib>
 #include <optional>
 
+#include "core/navigation/sample_merger.h"
+#include "core/slip/vehicle_slip.h"
 #include "fuzz_target.h"
 #include "message_reader.h"
-#include "slipnav/navigator/output.h"
-#include "slipnav/navigator/pipeline.h"
-#include "slipnav/navigator/sample_merger.h"
-#include "slipnav/ros/conversions.h"
-#include "slipnav/ros/internal_messages.h"
-#include "slipnav/ros/wheel_input.h"
-#include "slipnav/slip/vehicle_slip.h"
+#include "ros/messages/conversions.h"
+#include "ros/messages/internal_messages.h"
+#include "ros/messages/wheel_input.h"
+#include "slipnav/core/navigation/output.h"
+#include "slipnav/core/navigation/pipeline.h"
 
 namespace {
 

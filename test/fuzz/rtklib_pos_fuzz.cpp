@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "fuzz_target.h"
-#include "slipnav/eval/rtklib_pos.h"
+#include "io/rtklib_pos.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::istringstream text(slipnav::fuzz::toText(data, size));

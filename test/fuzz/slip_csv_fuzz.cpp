@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "evaluation/slip_forecast.h"
 #include "fuzz_target.h"
-#include "slipnav/forecast/slip_forecast.h"
 
 namespace {
 

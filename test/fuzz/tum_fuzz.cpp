@@ -2,8 +2,8 @@
 
 #include <stdexcept>
 
+#include "evaluation/tum.h"
 #include "fuzz_target.h"
-#include "slipnav/eval/tum.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const slipnav::fuzz::InputFile file(data, size);

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "slipnav/config/config.h"
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/ros/bag_writer.h"
+#include "config/config.h"
+#include "evaluation/simulated_drive.h"
+#include "ros/bag/bag_writer.h"
 
 namespace slipnav::test {
 

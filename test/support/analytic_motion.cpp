@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "slipnav/math/rotation.h"
+#include "slipnav/core/base/rotation.h"
 
 namespace slipnav::test {
 namespace {

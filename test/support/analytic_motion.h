@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "slipnav/ins/nav_state.h"
-#include "slipnav/ins/strapdown.h"
+#include "slipnav/core/ins/nav_state.h"
+#include "slipnav/core/ins/strapdown.h"
 
 namespace slipnav::test {
 

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "slipnav/forecast/slip_forecast.h"
+#include "evaluation/slip_forecast.h"
 
 namespace slipnav {
 namespace {

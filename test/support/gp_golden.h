@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slipnav/forecast/slip_window.h"
+#include "core/forecast/slip_window.h"
 
 namespace slipnav {
 

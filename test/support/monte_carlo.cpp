@@ -6,7 +6,7 @@
 #include <future>
 #include <stdexcept>
 
-#include "slipnav/eval/simulated_drive.h"
+#include "evaluation/simulated_drive.h"
 
 namespace slipnav::test {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "slipnav/config/config.h"
-#include "slipnav/filter/filter_data.h"
+#include "config/config.h"
+#include "slipnav/core/ekf/engine/filter_data.h"
 
 namespace slipnav::test {
 

@@ -1,6 +1,6 @@
 #include "random_states.h"
 
-#include "slipnav/math/rotation.h"
+#include "slipnav/core/base/rotation.h"
 
 namespace slipnav::test {
 namespace {

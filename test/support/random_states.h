@@ -1,8 +1,8 @@
 #pragma once
 /// Random states and covariances for tests of Jacobians and updates, and comparison of states.
 
-#include "slipnav/filter/error_state.h"
-#include "slipnav/sim/random.h"
+#include "simulation/random.h"
+#include "slipnav/core/ekf/error_state.h"
 
 namespace slipnav::test {
 

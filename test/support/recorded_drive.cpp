@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "evaluation/simulated_drive.h"
 #include "random_states.h"
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/filter/error_dynamics.h"
+#include "slipnav/core/ekf/error_dynamics.h"
 
 namespace slipnav::test {
 namespace {

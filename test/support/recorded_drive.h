@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "slipnav/config/config.h"
-#include "slipnav/filter/filter_data.h"
-#include "slipnav/navigator/navigator.h"
-#include "slipnav/sim/truth_state.h"
+#include "config/config.h"
+#include "simulation/truth_state.h"
+#include "slipnav/core/ekf/engine/filter_data.h"
+#include "slipnav/core/navigation/navigator.h"
 
 namespace slipnav::test {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "slipnav/config/parameter_visitor.h"
+#include "slipnav/core/parameters/parameter_visitor.h"
 
 namespace slipnav::test {
 

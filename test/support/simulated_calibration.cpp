@@ -1,6 +1,6 @@
 #include "simulated_calibration.h"
 
-#include "slipnav/eval/simulated_drive.h"
+#include "evaluation/simulated_drive.h"
 
 namespace slipnav::test {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "slipnav/calibration/calibration.h"
-#include "slipnav/sim/truth_state.h"
+#include "calibration/calibration.h"
+#include "simulation/truth_state.h"
 
 namespace slipnav::test {
 

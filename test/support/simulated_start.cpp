@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/filter/error_state.h"
+#include "evaluation/simulated_drive.h"
+#include "slipnav/core/ekf/error_state.h"
 
 namespace slipnav::test {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "slipnav/config/config.h"
+#include "config/config.h"
 
 namespace slipnav::test {
 

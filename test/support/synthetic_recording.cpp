@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "slipnav/earth/local_frame.h"
+#include "slipnav/core/earth/local_frame.h"
 
 namespace slipnav::test {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 /// A drive as a recording, from formulas: to be spoilt in one way and inspected.
 
-#include "slipnav/inspection/recording.h"
+#include "inspection/recording.h"
 
 namespace slipnav::test {
 

@@ -1,8 +1,8 @@
 #include "tuning_drive.h"
 
+#include "evaluation/simulated_drive.h"
 #include "recorded_drive.h"
-#include "slipnav/eval/simulated_drive.h"
-#include "slipnav/sim/random.h"
+#include "simulation/random.h"
 
 namespace slipnav::test {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Simulated drives for the tuning, with noise that is known.
 
-#include "slipnav/tuning/drive_likelihood.h"
+#include "tuning/drive_likelihood.h"
 
 namespace slipnav::test {
 

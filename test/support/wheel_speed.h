@@ -1,7 +1,7 @@
 #pragma once
 /// The wheel speed measurement with everything that does not matter for a test left at its default.
 
-#include "slipnav/measurement/wheel_odometry.h"
+#include "slipnav/core/ekf/models/wheel_odometry.h"
 
 namespace slipnav::test {
 

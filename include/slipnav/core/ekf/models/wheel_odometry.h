@@ -1,0 +1,58 @@
+#pragma once
+/// Wheel speed and wheel heading rate as measurements of the error state (Groves 16.3), with slip as states.
+
+#include <string>
+
+#include "slipnav/core/ekf/kalman_update.h"
+#include "slipnav/core/ekf/models/body_motion.h"
+#include "slipnav/core/ekf/models/noise_factors.h"
+#include "slipnav/core/parameters/parameter_visitor.h"
+#include "slipnav/core/sensors/wheel_geometry.h"
+
+namespace slipnav {
+
+/// Block `wheel`.
+struct WheelOdometryParams {
+  std::string source = "auto";
+  double stamp_delay_s = 0.0;
+  double speed_std_mps = 0.01;
+  double slip_noise_std = 0.006;
+  double stamp_std_s = 0.03;
+  double yaw_rate_std_deg_per_s = 3.3;
+  double yaw_rate_scale_std = 0.3;
+  double yaw_rate_length_m = 5.0;
+  double scrub_factor = 1.0;
+  void visit(ParameterVisitor& v);
+};
+
+/// What the wheels say of one interval.
+struct WheelInterval {
+  double speed_mps = 0.0;           ///< u: mean circumferential speed
+  double slipping_speed_mps = 0.0;  ///< ū: what slip is a ratio of, see SlippingSpeed
+  double duration_s = 0.0;
+  double acceleration_mps2 = 0.0;  ///< of the vehicle, predicted
+};
+
+/// Forward speed: u = v_x + ū (κ + s_slow + s_fast). The slip ratio is defined by u itself, so ū ≈ u; but were it u,
+/// noise of u would look like slip (errors in variables), and were it a product of estimated states, the direction in
+/// which speed and slip cannot be told apart would turn with every update and the filter would believe that it knows
+/// them. While the rover gathers speed ū is behind it, and a stamp that is off shows: both count as noise.
+/// The variance is made of a density in time for the encoders and one in way for the slip: encoders of any rate say the
+/// same together.
+/// @param motion means over the interval; @param H_v of motion.v_eb_b
+/// @param slip_variance of the estimated κ + s_slow + s_fast
+Measurement forwardSpeedMeasurement(const WheelOdometryParams& params, const WheelInterval& wheels,
+                                    const BodyMotion& motion, const VelocityJacobian& H_v, const VehicleState& vehicle,
+                                    double slip_variance, const NoiseFactors& factors);
+
+/// The part of that variance that is white noise of the wheel speed; and of slip that is new in every interval.
+double wheelNoiseVariance(const WheelOdometryParams& params, double duration_s, const NoiseFactors& factors);
+double newSlipVariance(const WheelOdometryParams& params, const WheelInterval& wheels, const NoiseFactors& factors);
+
+/// Heading rate: (v_left − v_right) / (track · scrub) against the gyros' rate about body z. Scrub and the slip of one
+/// side last for `yaw_rate_length_m`: over a shorter way the variance is that of as much less information.
+/// @param way_m of the wheels' surface in the interval
+Measurement yawRateMeasurement(const WheelOdometryParams& params, double wheel_yaw_rate_radps, double way_m,
+                               const BodyMotion& motion);
+
+}  // namespace slipnav

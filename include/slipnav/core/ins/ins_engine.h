@@ -1,0 +1,103 @@
+#pragma once
+/// Keeps the nominal state: checks and buffers IMU samples, mechanises them one by one, and goes back to where a
+/// correction belongs. Every result depends on the stamps and values of the samples alone.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "slipnav/core/base/sensors.h"
+#include "slipnav/core/ins/strapdown.h"
+#include "slipnav/core/sensors/imu_screen.h"
+
+namespace slipnav {
+
+/// A gap that is longer is none that a vehicle drives through: a clock has been set, or a computer was asleep. The
+/// vehicle counts as having stood for all of it, and its covariance grows as in one of this length [s].
+inline constexpr double kLongestGap_s = 60.0;
+
+/// One mechanised IMU interval.
+struct InsStep {
+  std::uint64_t sequence = 0;  ///< counts IMU intervals since the initial state
+  std::uint32_t epoch = 0;     ///< counts corrections; a step of an older epoch is void
+  Nanoseconds start = 0;
+  NavigationState state;                 ///< at the end of the interval
+  Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean over the interval [m/s²]
+  Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean over the interval [rad/s]
+  double gap_s = 0.0;                    ///< time without samples inside the interval
+};
+
+/// The state at the end of step `sequence` as the filter corrected it.
+struct Correction {
+  std::uint64_t sequence = 0;
+  std::uint32_t epoch = 0;  ///< epoch of all steps that follow from it
+  NavigationState state;
+};
+
+/// A ring of intervals, and the state at the end of each that is mechanised.
+class InsEngine {
+ public:
+  InsEngine(const Planet& planet, const ImuInputParams& params);
+
+  /// Drops everything, the initial state and the samples.
+  void reset();
+
+  /// Starts mechanising from `state`; samples up to its stamp are dropped, later ones that are buffered are used.
+  void initialise(const NavigationState& state);
+  bool isInitialised() const { return initialised_; }
+  /// Ends mechanising; samples are buffered for the next initial state.
+  void release() { initialised_ = false; }
+
+  /// Checks and buffers a sample.
+  ImuVerdict push(const ImuSample& sample);
+
+  /// Mechanises the next buffered interval; nothing when all are done or no initial state is known.
+  std::optional<InsStep> step();
+
+  /// Goes back to the step the correction is for; step() then mechanises again what followed it.
+  /// @return false when that step is no longer, or not yet, there
+  bool correct(const Correction& correction);
+
+  /// Goes on from a correction without the steps up to it, which another engine has made: what lies between its state
+  /// and the first sample is a gap.
+  void adopt(const Correction& correction);
+
+  /// Stamp of the newest accepted sample, 0 before the first.
+  Nanoseconds newestStamp() const { return screen_.newestStamp(); }
+  /// All axes of the IMU repeat themselves.
+  bool isImuFrozen() const { return screen_.isFrozen(); }
+  const Planet& planet() const { return strapdown_.planet(); }
+
+ private:
+  struct Slot {
+    Nanoseconds end;
+    ImuInterval interval;
+    double gap_s;
+    NavigationState state;  ///< at the end, once mechanised
+  };
+
+  Slot& slot(std::uint64_t sequence) { return ring_[sequence & (ring_.size() - 1)]; }
+  /// What an IMU measures while the vehicle turns about the vertical as in `interval`, and all else stays as it is.
+  ImuInterval steadyTurn(const NavigationState& state, const ImuInterval& interval) const;
+  void append(const Slot& slot);
+  void makeRoom();
+  void dropUpTo(Nanoseconds stamp);
+
+  Strapdown strapdown_;
+  ImuScreen screen_;
+  bool instantaneous_;
+  double gap_factor_;
+  double max_bridged_gap_s_;
+  std::vector<Slot> ring_;   ///< power of two in size; holds [first_, end_)
+  std::uint64_t first_ = 0;  ///< oldest buffered sequence
+  std::uint64_t next_ = 0;   ///< next to be mechanised
+  std::uint64_t end_ = 0;    ///< one past the newest buffered
+  std::uint64_t begin_ = 0;  ///< ring sequence of the step that begins at `initial_`
+  std::uint64_t base_ = 0;   ///< ring sequence that counts as step 0; where that was made elsewhere, below 0, wrapped
+  std::uint32_t epoch_ = 0;
+  bool initialised_ = false;
+  NavigationState initial_;
+  ImuSample newest_;  ///< accepted
+};
+
+}  // namespace slipnav

@@ -1,0 +1,67 @@
+#pragma once
+/// What is wrong with the sensors or the filter, by name: one wording for diagnostics, logs and the fault campaign.
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "slipnav/core/ekf/engine/filter_engine.h"
+#include "slipnav/core/ordering/imu_clock.h"
+#include "slipnav/core/sensors/imu_screen.h"
+
+namespace slipnav {
+
+/// When something was wrong, in stamps.
+struct Alarm {
+  Nanoseconds first = 0;
+  Nanoseconds last = 0;
+  std::uint64_t count = 0;
+};
+
+using Alarms = std::map<std::string, Alarm>;
+
+/// Keeps an alarm for each thing that has been wrong.
+class HealthMonitor {
+ public:
+  /// @param setup names the wheels and says how long they may be silent
+  explicit HealthMonitor(const FilterSetup& setup);
+
+  void noteImu(Nanoseconds stamp, ImuVerdict verdict);
+  /// What is wrong with the stamps of the IMU up to `stamp`.
+  void noteStamps(const StampFaults& faults, Nanoseconds stamp);
+  /// The clock was set back by so much.
+  void noteSetBack(double step_s, Nanoseconds stamp);
+  /// @param taken whether the filter had use for it
+  void noteWheels(const WheelMotion& wheels, bool taken);
+  /// Looks at rejected measurements, silent wheels, wheels that contradict the others, and wheels that turn backwards.
+  void noteFilter(const FilterEngine& filter);
+  /// Anything else that is wrong at `stamp`.
+  void note(const std::string& name, Nanoseconds stamp);
+  /// Something that has a size: one alarm, which says the greatest size so far.
+  /// @param name begins the name of the alarm; @param size in `unit`
+  void noteSized(const std::string& name, double size, const std::string& unit, Nanoseconds stamp);
+  /// The clock has gone back.
+  void restart() { newest_wheels_ = against_since_ = 0; }
+
+  /// Everything there has been.
+  const Alarms& alarms() const { return alarms_; }
+
+ private:
+  void noteSilence(Nanoseconds now);
+  void noteDirection(const NavigationState& state);
+  void noteRejections(const FilterEngine& filter);
+
+  double max_wheel_interval_s_;
+  std::vector<std::string> wheel_names_;
+  std::array<std::uint64_t, kComponents> rejected_ = {};  ///< when the filter was looked at last
+  Nanoseconds newest_wheels_ = 0;
+  double wheel_speed_mps_ = 0.0;   ///< forward, by the newest wheel sample
+  Nanoseconds against_since_ = 0;  ///< wheels and vehicle go opposite ways; 0: they do not
+  StampFaults stamp_faults_;       ///< as noted last
+  std::map<std::string, double> sizes_;
+  Alarms alarms_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,86 @@
+#pragma once
+/// Tells usable IMU samples from those that are not. The same samples in the same order give the same verdicts, so that
+/// everybody who listens to one IMU agrees on what has happened.
+
+#include <array>
+#include <string>
+
+#include "slipnav/core/base/sensors.h"
+#include "slipnav/core/ordering/usual_interval.h"
+#include "slipnav/core/parameters/parameter_visitor.h"
+
+namespace slipnav {
+
+/// Block `imu.input`.
+struct ImuInputParams {
+  std::string sampling = "mean";
+  double max_specific_force_mps2 = 200.0;
+  double max_rate_deg_per_s = 2000.0;
+  double gap_factor = 1.6;
+  double max_bridged_gap_s = 1.2;
+  int stuck_samples = 20;
+  void visit(ParameterVisitor& v);
+};
+
+/// What is to become of a sample.
+enum class ImuVerdict {
+  kAccepted,
+  kAfterGap,      ///< accepted; samples are missing before it
+  kNotFinite,     ///< refused: NaN or infinite
+  kOutOfRange,    ///< refused: at or beyond the end of what the sensor can measure
+  kStuck,         ///< refused: one axis has not changed for long while others of its kind do
+  kNotNewer,      ///< refused: repeated stamp, or older than the newest by less than a second
+  kTimeWentBack,  ///< refused: older by a second or more; the source has started anew
+};
+
+constexpr bool isAccepted(ImuVerdict verdict) {
+  return verdict == ImuVerdict::kAccepted || verdict == ImuVerdict::kAfterGap;
+}
+
+/// The verdict in words, "" for an accepted sample.
+const char* complaintOf(ImuVerdict verdict);
+
+/// Judges each sample by those before it.
+class ImuScreen {
+ public:
+  /// Verdict on a sample, and the interval that it ends.
+  struct Result {
+    ImuVerdict verdict = ImuVerdict::kAccepted;
+    double duration_s = 0.0;  ///< since the accepted sample before; 0 for the first
+    double gap_s = 0.0;       ///< time without samples in it
+  };
+
+  explicit ImuScreen(const ImuInputParams& params) : params_(params) {}
+
+  /// Forgets all samples.
+  void reset();
+
+  Result check(const ImuSample& sample);
+
+  /// Stamp of the newest accepted sample, 0 before the first.
+  Nanoseconds newestStamp() const { return newest_stamp_; }
+  /// Whether all axes have repeated the very same values `stuck_samples` times: a sensor or driver that hangs. The
+  /// samples are accepted nevertheless, since a sensor that counts coarsely says the same at rest.
+  bool isFrozen() const;
+
+ private:
+  /// How often in a row each axis of one triad has had the very same value.
+  struct Repeats {
+    Vector3 value = Vector3::Zero();
+    std::array<int, 3> count = {};
+    void add(const Vector3& next);
+    /// Whether an axis has repeated itself `limit` times, and another one has not.
+    bool isStuck(int limit) const;
+    bool areFrozen(int limit) const;
+  };
+
+  bool isInRange(const ImuSample& sample) const;
+
+  ImuInputParams params_;
+  Repeats force_;
+  Repeats rate_;
+  Nanoseconds newest_stamp_ = 0;
+  UsualInterval usual_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,14 @@
+#pragma once
+/// Radii, scrub factor and slip: wheel speeds against the smoothed motion.
+
+#include <vector>
+
+#include "calibration/calibration.h"
+
+namespace slipnav {
+
+/// Fills in what wheels tell. Reasons for what they do not tell go to `not_observable`.
+/// @param samples of a drive that has moved
+void calibrateWheels(const Config& config, const std::vector<MotionSample>& samples, CalibrationResult& result);
+
+}  // namespace slipnav

@@ -1,0 +1,25 @@
+#include "config/truth_params.h"
+
+namespace slipnav {
+
+void TruthParams::visit(ParameterVisitor& v) {
+  v.choice("align", align, {"auto", "none", "start_yaw", "start_pose", "heading"},
+           "none: truth lives in the frame of the estimate; start_yaw, start_pose: its first pose is that of the "
+           "estimate, by heading or by full attitude; heading: turned to fit the first metres; auto: none for fixes, "
+           "start_yaw for poses");
+  v.number("heading_distance_m", heading_distance_m, {1.0, 1e4}, "how many metres align: heading fits [m]");
+}
+
+TruthAlignment TruthParams::alignment(bool geodetic) const {
+  TruthAlignment alignment;
+  if (align == "start_pose") {
+    alignment.at_start = StartAlignment::kFullPose;
+  } else if (align == "start_yaw" || (align == "auto" && !geodetic)) {
+    alignment.at_start = StartAlignment::kYaw;
+  } else if (align == "heading") {
+    alignment.heading_distance_m = heading_distance_m;
+  }
+  return alignment;
+}
+
+}  // namespace slipnav

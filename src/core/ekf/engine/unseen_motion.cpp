@@ -1,0 +1,57 @@
+#include "slipnav/core/ekf/engine/unseen_motion.h"
+
+#include <algorithm>
+
+#include "core/base/square.h"
+#include "slipnav/core/base/rotation.h"
+
+namespace slipnav {
+namespace {
+
+constexpr double kSettling_s = 10.0;
+constexpr int kAgreements = 10;  // a second of standstill, as a rule
+
+}  // namespace
+
+void UnseenMotion::begin(const NavigationState& state, double gap_s, ErrorCovariance& P) {
+  const double turn = degToRad(params_.gap_rate_std_deg_per_s) * gap_s;
+  const double speed = params_.gap_accel_std_mps2 * gap_s;
+  doubt_.tilt_variance = square(std::min(turn, degToRad(params_.gap_max_tilt_deg)));
+  doubt_.speed_variance = square(speed);
+  P(kAttitude + 2, kAttitude + 2) += square(turn);
+  P.diagonal().segment<3>(kPosition).array() += square(0.5 * speed * gap_s);
+  doubt_.by_wheels_until = state.stamp + fromSeconds(kSettling_s);
+  doubt_.agreements = 0;
+  widen(P);
+}
+
+void UnseenMotion::allowForStandstill(const NavigationState& before, const NavigationState& after, ErrorCovariance& P) {
+  const double duration_s = toSeconds(after.stamp - before.stamp);
+  const Vector3 way_n = 0.5 * duration_s * (before.v_eb_n + after.v_eb_n);
+  const double turn = rotationVectorFromQuaternion(after.q_b_to_n * before.q_b_to_n.conjugate()).z();
+  P.block<3, 3>(kPosition, kPosition) += way_n * way_n.transpose();
+  P(kAttitude + 2, kAttitude + 2) += square(turn);
+}
+
+void UnseenMotion::doubt(Nanoseconds stamp, ErrorCovariance& P) {
+  if (stamp < doubt_.by_wheels_until) {
+    doubt_.by_wheels_until = stamp + fromSeconds(kSettling_s);
+    widen(P);
+  }
+}
+
+void UnseenMotion::standstill(bool agrees, ErrorCovariance& P) {
+  doubt_.agreements = agrees ? doubt_.agreements + 1 : 0;
+  if (doubt_.agreements >= kAgreements) {
+    reset();
+  } else if (!agrees) {
+    widen(P);
+  }
+}
+
+void UnseenMotion::widen(ErrorCovariance& P) const {
+  P.diagonal().segment<2>(kAttitude).array() += doubt_.tilt_variance;
+  P.diagonal().segment<3>(kVelocity).array() += doubt_.speed_variance;
+}
+
+}  // namespace slipnav

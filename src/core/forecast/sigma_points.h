@@ -1,0 +1,67 @@
+#pragma once
+/// Wheel speed from predicted slip: mean and variance through the slip ratio by sigma points.
+///
+/// With v the speed of the vehicle over ground and s the slip ratio, the wheel's circumference moves at
+///   rω = v/(1 − s)  for s ≥ 0 (driving, s = 1 − v/(rω)),
+///   rω = v (1 + s)  for s < 0 (braking, s = rω/v − 1).
+///
+/// Sources: Kilic et al. 2021, section IV-C; S. Julier, J. Uhlmann, A new method for the nonlinear transformation of
+/// means and covariances in filters and estimators, IEEE Transactions on Automatic Control 45(3), 2000.
+
+#include <string>
+
+#include "slipnav/core/parameters/parameter_visitor.h"
+
+namespace slipnav {
+
+/// Whose equations hold.
+enum class SigmaPointForm {
+  /// Points μ, μ ± cσ with weights 1 − 1/c², 1/(2c²), 1/(2c²): exact on a linear map; variance in (m/s)².
+  kUnscented,
+  /// The paper's equations to the letter: points v/(1 − μ) and v/(1 − μ ± σ²) (it calls the variance σ_s), equal
+  /// weights, the mean squared spread called σ_χ and squared again: "variance" in (m/s)⁴. For comparison only.
+  kPaper,
+};
+
+/// Block `forecast.sigma_points`.
+struct SigmaPointParameters {
+  std::string form = "unscented";      ///< unscented or paper
+  double spread = 1.7320508075688772;  ///< c, at least 1; √3 matches the fourth moment of a Gaussian
+  double max_slip = 0.9;               ///< points are clamped to ±max_slip, short of the pole at s = 1
+
+  void visit(ParameterVisitor& v);
+};
+
+/// rω for one slip ratio in [−1, 1) [m/s].
+double wheelSpeedFromSlip(double speed_mps, double slip);
+
+/// Circumferential speed of the wheels at the slip predicted.
+struct WheelSpeedPrediction {
+  double mean_mps = 0.0;
+  double variance = 0.0;  ///< (m/s)² for the unscented form
+  /// Change of wheel speed per unit of slip, from the statistical linearisation Cov(χ, s)/Var(s) [m/s]; what couples a
+  /// slip error that persists to the wheel speed.
+  double sensitivity_mps = 0.0;
+};
+
+/// Carries mean and deviation of slip through the relation above. Immutable.
+class SigmaPoints {
+ public:
+  /// Throws std::invalid_argument naming a parameter that is out of range.
+  explicit SigmaPoints(const SigmaPointParameters& parameters);
+
+  /// @param speed_mps over ground
+  /// @param slip_mean,slip_stddev of the predicted slip; the deviation is not negative
+  WheelSpeedPrediction predict(double speed_mps, double slip_mean, double slip_stddev) const;
+
+ private:
+  WheelSpeedPrediction unscented(double speed_mps, double slip_mean, double slip_stddev) const;
+  WheelSpeedPrediction paper(double speed_mps, double slip_mean, double slip_stddev) const;
+  double clampSlip(double slip) const;
+
+  SigmaPointForm form_;
+  double spread_;
+  double max_slip_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,72 @@
+#pragma once
+/// What a model of wheel slip over time offers: fit a window, predict ahead.
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/forecast/slip_window.h"
+
+namespace slipnav {
+
+/// What has become of a window.
+enum class SlipFitStatus {
+  kConverged,            ///< hyperparameters fitted
+  kNotConverged,         ///< out of evaluations; the best hyperparameters met are used
+  kKeptPrevious,         ///< the optimiser failed; this window with the hyperparameters of the last good fit
+  kDefaults,             ///< the optimiser failed and there was no good fit yet; this window with the prior's means
+  kConstantSlip,         ///< slip does not vary: nothing to fit; this window with the prior's means
+  kTooFewSamples,        ///< window refused
+  kOriginAfterSample,    ///< window refused: the given origin is later than its first sample
+  kNotPositiveDefinite,  ///< window refused: no regression with any hyperparameters at hand
+};
+
+/// One lower-case word or two, for messages and files.
+const char* toString(SlipFitStatus status);
+
+/// Whether the window was taken. After a refused one the model is as it was before.
+bool isAccepted(SlipFitStatus status);
+
+/// Report on one window.
+struct SlipFit {
+  SlipFitStatus status = SlipFitStatus::kTooFewSamples;
+  int samples = 0;   ///< used
+  int left_out = 0;  ///< see SlipWindow
+  // Of the window when it was taken, else of the one before; empty and zero when there is none.
+  double origin_s = 0.0;
+  std::vector<std::pair<std::string, double>> hyperparameters;  ///< name (unit as suffix) and value
+  double log_marginal_likelihood = 0.0;                         ///< of the samples used
+  int evaluations = 0;                                          ///< of the likelihood, for this window
+
+  /// By its name, with the unit; zero when the model has none of that name.
+  double hyperparameter(const std::string& name) const;
+};
+
+/// The latent slip, without the noise of a single observation. Every number is finite.
+struct SlipPrediction {
+  Eigen::VectorXd times_s;  ///< on the clock of the samples
+  Eigen::VectorXd mean;
+  Eigen::VectorXd stddev;
+};
+
+/// Holds the last window taken; predictions are made from it.
+class SlipModel {
+ public:
+  virtual ~SlipModel() = default;
+
+  /// Never throws for what sensors may deliver; throws std::invalid_argument when times and slips differ in length.
+  virtual SlipFit fit(const SlipSamples& samples) = 0;
+
+  /// Whether a window was taken yet.
+  virtual bool isReady() const = 0;
+
+  /// Predictions for times from the last sample on, on the clock of the samples. Throws std::logic_error when not
+  /// ready, std::invalid_argument for a time that is earlier than the model can tell.
+  virtual SlipPrediction predict(const Eigen::VectorXd& times_s) const = 0;
+
+  /// Joint covariance (n × n) of the latent slip at such times: how much of its error persists. Throws as predict().
+  virtual Eigen::MatrixXd predictCovariance(const Eigen::VectorXd& times_s) const = 0;
+};
+
+}  // namespace slipnav

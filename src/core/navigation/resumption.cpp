@@ -1,0 +1,29 @@
+#include "core/navigation/resumption.h"
+
+#include <utility>
+
+namespace slipnav {
+
+Resumption::Resumption(const Planet& planet, const CheckpointParams& params, const FilterSetup& setup)
+    : params_(params), prior_variance_(ErrorDynamics(planet, setup.imu, setup.vehicle).priorVariance()) {
+  if (params.enabled()) {
+    LoadedCheckpoint loaded = loadCheckpoint(params.file);
+    checkpoint_ = std::move(loaded.checkpoint);
+    refused_ = std::move(loaded.refused);
+  }
+}
+
+InitialState Resumption::resume(Nanoseconds now) {
+  const Checkpoint checkpoint = *std::exchange(checkpoint_, std::nullopt);
+  unwatched_s_ = toSeconds(now - checkpoint.state.nav.stamp);
+  return resumeFrom(checkpoint, now, prior_variance_, params_);
+}
+
+void Resumption::deleteFiles() {
+  forget();
+  if (params_.enabled()) {
+    deleteCheckpoint(params_.file);
+  }
+}
+
+}  // namespace slipnav

@@ -1,0 +1,105 @@
+#pragma once
+/// Brings the samples of several sensors into one order by stamp, whatever the order in which they come.
+///
+/// A sample is let go when the IMU has gone on by the wait since; what comes later than that is out of order, and those
+/// who get it refuse it. IMU samples are put into order by themselves before (ImuSorter). Where the stamps of a sensor
+/// go back by a second or more, what follows belongs after everything of all sensors before their own such step; unless
+/// the clock has begun again, time goes on (ContinuousTime). Single samples with a wrong stamp are left out
+/// (JumpFilter).
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <tuple>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/ordering/continuous_time.h"
+#include "core/ordering/imu_sorter.h"
+#include "core/ordering/jump_filter.h"
+#include "slipnav/core/ekf/engine/filter_data.h"
+#include "slipnav/core/ekf/models/gnss_fix.h"
+
+namespace slipnav {
+
+using Sample = std::variant<ImuSample, WheelMotion, PositionFix, VelocityFix>;
+
+/// One queue per sensor; the earliest sample of all goes first. Samples come in stamps of the clock and go in
+/// continuous time.
+class SampleMerger {
+ public:
+  using Sink = std::function<void(const Sample&)>;
+
+  /// @param max_wait_s how late a sample may be, in stamps of the IMU
+  /// @param fix_jump of positions, where those of a slow receiver must not be late
+  explicit SampleMerger(double max_wait_s, Nanoseconds fix_jump = JumpFilter<PositionFix>::kJump)
+      : max_wait_(fromSeconds(max_wait_s)) {
+    std::get<JumpFilter<PositionFix>>(filters_) = JumpFilter<PositionFix>(fix_jump);
+  }
+
+  void push(const Sample& sample);
+
+  /// Lets go what nothing can come before any more.
+  void advance(const Sink& sink) { advance(newest_imu_, sink); }
+  /// The same, judged by an earlier stamp of the IMU.
+  /// @param trusted newest stamp that nothing can have overtaken
+  void advanceTrusting(Nanoseconds trusted, const Sink& sink) { advance({newest_imu_.session, trusted}, sink); }
+
+  /// Lets go everything.
+  void flush(const Sink& sink);
+
+  /// Stamp of the newest IMU sample by the clock, 0 before the first.
+  Nanoseconds newestImuStamp() const { return newest_imu_.stamp; }
+  /// The same in continuous time.
+  Nanoseconds newestImuTime() const { return newest_imu_.stamp + offsetAfter(newest_imu_.session); }
+
+  /// What has to be added to stamps by the clock.
+  /// @param steps how often the clock had gone back before, for whatever reason
+  Nanoseconds offsetAfter(std::size_t steps) const;
+  /// How the clock of the IMU was set back.
+  const ContinuousTime& time() const { return time_; }
+
+  /// Samples that were left out for their stamps, of all sensors.
+  std::uint64_t leftOut() const;
+
+  /// IMU samples that were put back into order.
+  std::uint64_t overtaken() const { return imu_sorter_.overtaken(); }
+
+ private:
+  /// Stamps are comparable within a session, sessions follow each other.
+  struct Instant {
+    std::uint32_t session = 0;
+    Nanoseconds stamp = 0;
+    bool operator<(const Instant& other) const {
+      return std::pair(session, stamp) < std::pair(other.session, other.stamp);
+    }
+  };
+  struct Entry {
+    Instant instant;
+    Sample sample;
+  };
+  struct Stream {
+    std::deque<Entry> waiting;
+    Instant newest;
+  };
+
+  void sort(const ImuSample& sample);
+  void sort(const Sample& sample) { insert(sample); }
+  void insert(const Sample& sample);
+  void advance(const Instant& trusted, const Sink& sink);
+  void release(Stream& stream, const Sink& sink);
+  Stream* earliest();
+  bool isCertain(const Instant& instant, const Instant& trusted) const;
+
+  Nanoseconds max_wait_;
+  std::tuple<JumpFilter<ImuSample>, JumpFilter<WheelMotion>, JumpFilter<PositionFix>, JumpFilter<VelocityFix>> filters_;
+  ImuSorter imu_sorter_;
+  ContinuousTime time_;
+  std::vector<Nanoseconds> offsets_;  ///< by session
+  std::array<Stream, std::variant_size_v<Sample>> streams_;
+  Instant newest_imu_;
+};
+
+}  // namespace slipnav

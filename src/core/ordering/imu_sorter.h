@@ -1,0 +1,61 @@
+#pragma once
+/// Puts IMU samples that have overtaken each other back into order.
+///
+/// Where a sample seems to be missing, those after it wait until it has come, or until two of them wait: no transport
+/// that loses its order does so by much. So a lost sample delays an estimate by two intervals, and nothing else waits.
+
+#include <cstdint>
+
+#include "slipnav/core/base/ring_queue.h"
+#include "slipnav/core/base/sensors.h"
+#include "slipnav/core/ordering/cadence.h"
+
+namespace slipnav {
+
+/// For one source; samples that are repeated or too late are passed on for others to judge.
+class ImuSorter {
+ public:
+  /// Gives `sink` the samples whose turn it is.
+  template <class Sink>
+  void push(const ImuSample& sample, const Sink& sink) {
+    if (sample.stamp <= cadence_.newest() - kRestartBackstep) {  // a source that has started anew
+      release(0, sink);
+      cadence_.restart(sample.stamp);
+    }
+    if (sample.stamp <= cadence_.newest()) {
+      sink(sample);
+      return;
+    }
+    overtaken_ += !waiting_.empty() && sample.stamp < waiting_.back().stamp ? 1 : 0;
+    waiting_.insertSorted(sample, [](const ImuSample& a, const ImuSample& b) { return a.stamp < b.stamp; });
+    release(kPlaces, sink);
+  }
+
+  /// How many have been put back into order.
+  std::uint64_t overtaken() const { return overtaken_; }
+
+ private:
+  bool isAfterHole(const ImuSample& sample) const {
+    return cadence_.isLearned() && cadence_.isHole(cadence_.newest(), sample.stamp);
+  }
+
+  static constexpr std::size_t kPlaces = 2;
+  static constexpr double kLongestInterval_s = 0.2;
+
+  /// Lets go what follows without a hole, and what is more than `places`.
+  template <class Sink>
+  void release(std::size_t places, const Sink& sink) {
+    while (!waiting_.empty() && (waiting_.size() > places || !isAfterHole(waiting_.front()))) {
+      const ImuSample sample = waiting_.front();
+      waiting_.pop_front();
+      cadence_.add(sample.stamp);
+      sink(sample);
+    }
+  }
+
+  Cadence cadence_{kLongestInterval_s};
+  RingQueue<ImuSample> waiting_;
+  std::uint64_t overtaken_ = 0;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,113 @@
+#include "slipnav/core/sensors/imu_screen.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipnav {
+namespace {
+
+/// Far below the noise of any IMU, in SI units; a mounting by quarter turns leaves traces of the other axes.
+constexpr double kSame = 1e-9;
+
+}  // namespace
+
+void ImuInputParams::visit(ParameterVisitor& v) {
+  v.choice("sampling", sampling, {"mean", "instantaneous"},
+           "whether a sample is the mean over the interval that ends at its stamp, or the value at its stamp");
+  v.number("max_specific_force_mps2", max_specific_force_mps2, {1.0, 1e5},
+           "end of the range of each accelerometer: what reaches it is refused [m/s²]");
+  v.number("max_rate_deg_per_s", max_rate_deg_per_s, {1.0, 1e6},
+           "end of the range of each gyro: what reaches it is refused [°/s]");
+  v.number("gap_factor", gap_factor, {1.5, 100.0}, "an interval longer than this many usual ones counts as a gap");
+  v.number("max_bridged_gap_s", max_bridged_gap_s, {0.0, 60.0},
+           "over a shorter gap the IMU is taken to have gone on evenly; in a longer one, tilt and velocity to have "
+           "stayed [s]");
+  v.integer(
+      "stuck_samples", stuck_samples, {0.0, 1e6},
+      "an axis that repeats the very same value so often, while another of its kind changes, is stuck: samples are "
+      "refused until it moves; 0: never");
+}
+
+const char* complaintOf(ImuVerdict verdict) {
+  switch (verdict) {
+    case ImuVerdict::kNotFinite:
+      return "not a number or infinite";
+    case ImuVerdict::kOutOfRange:
+      return "at the end of the sensor's range";
+    case ImuVerdict::kStuck:
+      return "an axis does not change any more";
+    case ImuVerdict::kNotNewer:
+      return "not newer than the sample before";
+    case ImuVerdict::kTimeWentBack:
+      return "the clock went back";
+    case ImuVerdict::kAccepted:
+    case ImuVerdict::kAfterGap:
+      break;
+  }
+  return "";
+}
+
+void ImuScreen::Repeats::add(const Vector3& next) {
+  for (std::size_t i = 0; i < count.size(); ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    count[i] = std::abs(next[axis] - value[axis]) < kSame ? count[i] + 1 : 0;
+  }
+  value = next;
+}
+
+bool ImuScreen::Repeats::isStuck(int limit) const {
+  const auto [least, most] = std::minmax_element(count.begin(), count.end());
+  return limit > 0 && *most >= limit && *least == 0;
+}
+
+bool ImuScreen::Repeats::areFrozen(int limit) const {
+  return limit > 0 && *std::min_element(count.begin(), count.end()) >= limit;
+}
+
+bool ImuScreen::isFrozen() const {
+  return force_.areFrozen(params_.stuck_samples) && rate_.areFrozen(params_.stuck_samples);
+}
+
+bool ImuScreen::isInRange(const ImuSample& sample) const {
+  return sample.f_ib_b.cwiseAbs().maxCoeff() < params_.max_specific_force_mps2 &&
+         sample.omega_ib_b.cwiseAbs().maxCoeff() < degToRad(params_.max_rate_deg_per_s);
+}
+
+void ImuScreen::reset() {
+  force_ = Repeats();
+  rate_ = Repeats();
+  newest_stamp_ = 0;
+  usual_.reset();
+}
+
+ImuScreen::Result ImuScreen::check(const ImuSample& sample) {
+  if (!sample.f_ib_b.allFinite() || !sample.omega_ib_b.allFinite()) {
+    return {ImuVerdict::kNotFinite};
+  }
+  if (!isInRange(sample)) {
+    return {ImuVerdict::kOutOfRange};
+  }
+  const bool is_first = newest_stamp_ == 0;
+  const Nanoseconds since = sample.stamp - newest_stamp_;
+  if (!is_first && since <= 0) {
+    return {since <= -kRestartBackstep ? ImuVerdict::kTimeWentBack : ImuVerdict::kNotNewer};
+  }
+  force_.add(sample.f_ib_b);
+  rate_.add(sample.omega_ib_b);
+  if (force_.isStuck(params_.stuck_samples) || rate_.isStuck(params_.stuck_samples)) {
+    return {ImuVerdict::kStuck};
+  }
+  newest_stamp_ = sample.stamp;
+  if (is_first) {
+    return {};
+  }
+  const double duration_s = toSeconds(since);
+  const double usual_s = usual_.value();
+  usual_.add(duration_s);
+  if (usual_s > 0.0 && duration_s > params_.gap_factor * usual_s) {
+    return {ImuVerdict::kAfterGap, duration_s, duration_s - usual_s};
+  }
+  return {ImuVerdict::kAccepted, duration_s, 0.0};
+}
+
+}  // namespace slipnav

@@ -1,0 +1,55 @@
+#include "evaluation/json_object.h"
+
+#include <cmath>
+#include <iomanip>
+
+#include "core/base/text.h"
+#include "io/fields.h"
+
+namespace slipnav {
+namespace {
+
+/// In quotation marks. What is not printable ASCII or UTF-8 is escaped.
+std::string quoted(const std::string& text) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << '"' << std::hex << std::setfill('0');
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      out << '\\' << c;
+    } else if (byte < 0x20 || byte == 0x7F) {
+      out << "\\u" << std::setw(4) << static_cast<int>(byte);
+    } else {
+      out << c;
+    }
+  }
+  return out.str() + '"';
+}
+
+}  // namespace
+
+void JsonObject::addNumber(const char* key, std::optional<double> value) {
+  begin(key) << (value && std::isfinite(*value) ? formatNumber(*value) : "null");
+}
+
+void JsonObject::addText(const char* key, const std::string& value) { begin(key) << quoted(value); }
+
+void JsonObject::addAlarms(const char* key, const Alarms& alarms) {
+  std::ostream& out = begin(key);
+  const char* separator = "[";
+  for (const auto& [what, alarm] : inOrderOfAppearance(alarms)) {
+    out << separator << "\n    {\"what\": " << quoted(what) << ", \"count\": " << alarm.count
+        << ", \"first_s\": " << formatSeconds(alarm.first) << ", \"last_s\": " << formatSeconds(alarm.last) << "}";
+    separator = ",";
+  }
+  out << (alarms.empty() ? "[]" : "\n  ]");
+}
+
+std::ostream& JsonObject::begin(const char* key) {
+  out_ << (is_first_ ? "" : ",\n") << "  \"" << key << "\": ";
+  is_first_ = false;
+  return out_;
+}
+
+}  // namespace slipnav

@@ -1,0 +1,196 @@
+#include "evaluation/offline_run.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+
+#include "core/slip/slip_ratio.h"
+#include "evaluation/truth_gate.h"
+#include "slipnav/core/base/rotation.h"
+
+namespace slipnav {
+namespace {
+
+constexpr double kSlowestSpeedForSlip_mps = 0.05;
+
+Config withoutZeroUpdates(Config config) {
+  std::vector<std::string>& updates = config.filter.updates;
+  updates.erase(std::remove_if(updates.begin(), updates.end(),
+                               [](const std::string& update) { return update == "zupt" || update == "zaru"; }),
+                updates.end());
+  return config;
+}
+
+Geodetic startingPlace(const InitializationParams& start) {
+  return {degToRad(start.latitude_deg), degToRad(start.longitude_deg), start.height_m};
+}
+
+}  // namespace
+
+OfflineRun::OfflineRun(const Config& config, bool with_baselines)
+    : config_(config),
+      planet_(Planet::byName(config.planet)),
+      pipeline_(planet_, config.navigation(),
+                [this](const Estimate& estimate, const ErrorCovariance& P) { record(estimate, P); }),
+      stops_(config.stationary, imuFloor(config.imu.noise),
+             planet_.gravity_n(startingPlace(config.initialization)).norm()) {
+  if (with_baselines) {
+    without_zupt_ = std::make_unique<OfflineRun>(withoutZeroUpdates(config), false);
+    forecasts_.emplace(config);
+  }
+}
+
+void OfflineRun::push(const ImuSample& sample) {
+  stops_.add(sample);
+  pipeline_.push(sample);
+  if (wheel_only_) {
+    wheel_only_->addImu(sample);
+  } else {
+    earlier_imu_.push_back(sample);
+  }
+  if (without_zupt_) {
+    without_zupt_->push(sample);
+  }
+}
+
+void OfflineRun::push(const WheelMotion& wheels) {
+  stops_.add(wheels);
+  pipeline_.push(wheels);
+  const SpeedSample speed{wheels.stamp, wheels.motion.forward_mps};
+  if (wheel_only_) {
+    wheel_only_->addSpeed(speed);
+  } else {
+    earlier_speeds_.push_back(speed);
+  }
+  if (without_zupt_) {
+    without_zupt_->push(wheels);
+  }
+}
+
+void OfflineRun::push(const AntennaFix& fix) {
+  pipeline_.push(fix);
+  if (without_zupt_) {
+    without_zupt_->push(fix);
+  }
+}
+
+void OfflineRun::setTruth(const NavigationState& truth, bool has_attitude) {
+  pipeline_.setTruth(truth, has_attitude);
+  if (without_zupt_) {
+    without_zupt_->setTruth(truth, has_attitude);
+  }
+}
+
+std::optional<double> OfflineRun::slipOf(const Estimate& estimate) const {
+  if (estimate.stationary) {
+    return std::nullopt;
+  }
+  return slipRatio(estimate.motion.v_eb_b.x(), estimate.wheels.motion.forward_mps, kSlowestSpeedForSlip_mps);
+}
+
+void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
+  if (!output_ || estimate.sequence == 0) {  // a new start, also after the clock went back
+    output_.emplace(planet_, pipeline_.initial()->origin, -config_.imu.mount.position_b(),
+                    pipeline_.filter().dynamics().gyroNoiseDensity());
+    estimates_.clear();
+    filter_rows_.clear();
+    if (forecasts_) {
+      forecasts_->clear();
+    }
+    startWheelOnly(output_->make(estimate, P));
+  }
+  if (estimate.has_wheels) {
+    slip_ = slipOf(estimate);
+  }
+  const std::uint64_t zero_updates = pipeline_.filter().status(kZeroVelocity).accepted;
+  if (zero_updates > zero_updates_) {
+    stops_.noteZeroUpdate(estimate.nav.stamp);
+  }
+  zero_updates_ = zero_updates;
+  filter_rows_.add(estimate, P, pipeline_.filter());
+  const Output out = output_->make(estimate, P);
+  if (on_output_) {
+    on_output_(out);
+  }
+  estimates_.push_back({out.stamp, out.position_enu_m, out.pose_covariance.topLeftCorner<3, 3>(), out.q_flu_to_enu,
+                        out.velocity_flu_mps.x(), slip_, estimate.stationary});
+  if (on_estimate_) {
+    on_estimate_(estimate, P);
+  }
+  if (forecasts_) {
+    forecasts_->push(estimate, P, on_forecast_);
+  }
+}
+
+/// The samples that came before the start was known still count: it may lie before them.
+void OfflineRun::startWheelOnly(const Output& out) {
+  const Vector3 forward_enu = out.q_flu_to_enu * Vector3::UnitX();
+  wheel_only_.emplace();
+  wheel_only_->start(
+      {out.stamp, out.position_enu_m.x(), out.position_enu_m.y(), std::atan2(forward_enu.x(), forward_enu.y())});
+  for (const ImuSample& sample : earlier_imu_) {
+    wheel_only_->addImu(sample);
+  }
+  for (const SpeedSample& speed : earlier_speeds_) {
+    wheel_only_->addSpeed(speed);
+  }
+  earlier_imu_.clear();
+  earlier_speeds_.clear();
+}
+
+TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment, MetricsInput& input) const {
+  const TruthTrack whole =
+      truth_poses_.empty() ? TruthTrack::fromFixes(truth_fixes_, output_->frame()) : TruthTrack(truth_poses_);
+  if (whole.empty()) {
+    return whole;
+  }
+  requireTimeInCommon(whole, estimates_);
+  TruthTrack truth = withoutJumps(whole);
+  input.truth_left_out = static_cast<std::int64_t>(whole.samples().size() - truth.samples().size());
+  if (alignment.at_start) {
+    truth = alignAtStart(truth, estimates_, *alignment.at_start);
+  }
+  const Vector3 lever_flu(config_.truth_mount.x_m, config_.truth_mount.y_m, config_.truth_mount.z_m);
+  if (!lever_flu.isZero()) {
+    truth = removeLeverArm(truth, estimates_, lever_flu);
+  }
+  return alignment.heading_distance_m ? alignHeading(truth, estimates_, *alignment.heading_distance_m) : truth;
+}
+
+RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
+  if (!hasEstimates()) {
+    throw std::runtime_error(failure());
+  }
+  RunReport report;
+  MetricsInput input;
+  report.estimates = estimates_;
+  report.truth = truthTrack(alignment, input);
+  input.estimates = estimates_;
+  input.truth = report.truth;
+  input.wheel_only = wheel_only_->track();
+  const SampleCounts& counts = pipeline_.counts();
+  input.counters.imu_samples = static_cast<std::int64_t>(counts.imu);
+  input.counters.wheel_samples = static_cast<std::int64_t>(counts.wheels);
+  input.counters.rejected_samples = static_cast<std::int64_t>(counts.rejected);
+  if (without_zupt_ && !without_zupt_->estimates_.empty()) {
+    MetricsInput plain;
+    plain.estimates = without_zupt_->estimates_;
+    plain.truth = report.truth;
+    input.no_zupt_error_pct = computeMetrics(plain).enu_error_pct;
+  }
+  if (forecasts_) {
+    report.forecasts = forecasts_->errorRows();
+    report.diagnostics.slip_forecasts = forecasts_->slipRows();
+    input.counters.forecast_ms = forecasts_->times_ms();
+    input.counters.forecasts = static_cast<std::int64_t>(forecasts_->times_ms().size());
+  }
+  input.stops = stops_.counts(estimates_.front().stamp, estimates_.back().stamp);
+  input.uses_stops = config_.filter.uses("zupt");
+  report.metrics = computeMetrics(input);
+  report.metrics.alarms = pipeline_.health().alarms();
+  report.diagnostics.filter = filter_rows_.rows();
+  report.diagnostics.wheel_only = input.wheel_only;
+  return report;
+}
+
+}  // namespace slipnav

@@ -1,0 +1,184 @@
+#include "evaluation/report.h"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "core/base/atomic_file.h"
+#include "evaluation/json_object.h"
+#include "evaluation/tum.h"
+#include "io/fields.h"
+
+namespace slipnav {
+namespace {
+
+constexpr int kCsvDigits = 12;
+
+/// The number, or NaN, which streams as `nan`, where there is none.
+double orNan(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
+
+/// One column of the table: two header lines, and how the figures of a row are written.
+struct Column {
+  const char* group;
+  const char* title;
+  int decimals;
+};
+
+constexpr int kNameWidth = 20;
+constexpr int kColumnWidth = 8;
+
+constexpr std::array<Column, 12> kColumns = {{{"", "D m", 0},
+                                              {"", "eps m", 1},
+                                              {"", "stops", 0},
+                                              {"", "T s", 0},
+                                              {"error %", "ENU", 2},
+                                              {"", "median", 2},
+                                              {"horiz. m", "median", 2},
+                                              {"", "std", 2},
+                                              {"", "max", 2},
+                                              {"RMS m", "east", 2},
+                                              {"", "north", 2},
+                                              {"", "up", 2}}};
+
+std::string cell(const std::optional<double>& value, int decimals) {
+  if (!value || !std::isfinite(*value)) {
+    return "-";
+  }
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::fixed << std::setprecision(decimals) << *value;
+  return out.str();
+}
+
+template <class CellOf>
+std::string tableLine(const std::string& name, CellOf cellOf) {
+  std::ostringstream out;
+  out << std::left << std::setw(kNameWidth) << name << std::right;
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    out << ' ' << std::setw(kColumnWidth) << cellOf(i);
+  }
+  const std::string line = out.str();
+  return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+}
+
+}  // namespace
+
+std::string metricsJson(const Metrics& metrics) {
+  JsonObject json;
+  json.addNumber("distance_m", metrics.distance_m);
+  json.addNumber("duration_s", metrics.duration_s);
+  json.addCount("stop_count", metrics.stop_count);
+  json.addNumber("stop_rate_pct", metrics.stop_rate_pct);
+  json.addNumber("enu_error_pct", metrics.enu_error_pct);
+  json.addNumber("median_error_pct", metrics.median_error_pct);
+  json.addNumber("horizontal_median_m", metrics.horizontal_median_m);
+  json.addNumber("horizontal_std_m", metrics.horizontal_std_m);
+  json.addNumber("horizontal_max_m", metrics.horizontal_max_m);
+  json.addNumber("horizontal_final_m", metrics.horizontal_final_m);
+  json.addNumber("rms_east_m", metrics.rms_east_m);
+  json.addNumber("rms_north_m", metrics.rms_north_m);
+  json.addNumber("rms_up_m", metrics.rms_up_m);
+  json.addNumber("position_nees_mean", metrics.position_nees_mean);
+  json.addNumber("coverage_3sigma_pct", metrics.coverage_3sigma_pct);
+  json.addNumber("wheel_only_error_pct", metrics.wheel_only_error_pct);
+  json.addNumber("no_zupt_error_pct", metrics.no_zupt_error_pct);
+  json.addCount("imu_samples", metrics.imu_samples);
+  json.addCount("wheel_samples", metrics.wheel_samples);
+  json.addCount("rejected_samples", metrics.rejected_samples);
+  json.addCount("forecasts", metrics.forecasts);
+  json.addNumber("forecast_ms_p50", metrics.forecast_ms_p50);
+  json.addNumber("forecast_ms_p99", metrics.forecast_ms_p99);
+  json.addNumber("cpu_s", metrics.cpu_s);
+  json.addNumber("realtime_factor", metrics.realtime_factor);
+  json.addNumber("final_pct", metrics.final_pct);
+  json.addCount("stops_seen", metrics.stops_seen);
+  json.addCount("stops_used", metrics.stops_used);
+  json.addCount("truth_left_out", metrics.truth_left_out);
+  json.addText("verdict", metrics.verdict);
+  json.addAlarms("problems", metrics.problems);
+  json.addAlarms("alarms", metrics.alarms);
+  return json.text();
+}
+
+void writeMetricsJson(const std::string& path, const Metrics& metrics) {
+  AtomicFile file(path);
+  file.stream() << metricsJson(metrics);
+  file.commit();
+}
+
+void writeTimelineCsv(const std::string& path, const EstimateTrack& estimates, const TruthTrack& truth) {
+  AtomicFile file(path);
+  std::ostream& out = file.stream();
+  out << "t,est_e,est_n,est_u,sigma_e,sigma_n,sigma_u,truth_e,truth_n,truth_u,speed,slip,stationary\n";
+  out << std::setprecision(kCsvDigits);
+  for (const EstimateSample& estimate : estimates) {
+    const auto reference = truth.at(estimate.stamp);
+    out << formatSeconds(estimate.stamp);
+    writeVector(out, estimate.position_enu_m);
+    writeVector(out, estimate.covariance_enu_m2.diagonal().cwiseMax(0.0).cwiseSqrt());
+    writeVector(out, reference ? reference->position_enu_m : Vector3::Constant(orNan(std::nullopt)));
+    out << ',' << estimate.speed_mps << ',' << orNan(estimate.slip) << ',' << (estimate.stationary ? 1 : 0) << '\n';
+  }
+  file.commit();
+}
+
+void writeForecastsCsv(const std::string& path, const std::vector<ForecastRow>& forecasts) {
+  AtomicFile file(path);
+  std::ostream& out = file.stream();
+  out << "t,horizon_s,horizontal_bound_m,time_to_stop_s\n" << std::setprecision(kCsvDigits);
+  for (const ForecastRow& row : forecasts) {
+    out << formatSeconds(row.stamp) << ',' << row.horizon_s << ',' << row.horizontal_bound_m << ','
+        << orNan(row.time_to_stop_s) << '\n';
+  }
+  file.commit();
+}
+
+void writeRunReport(const std::string& directory, const RunReport& report) {
+  createDirectories(directory);
+  const std::filesystem::path folder(directory);
+  const std::string truth_path = (folder / "truth.tum").string();
+  writeTum((folder / "estimate.tum").string(), tumPoses(report.estimates));
+  if (report.truth.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(truth_path, ignored);
+  } else {
+    writeTum(truth_path, tumPoses(report.truth));
+  }
+  writeTimelineCsv((folder / "timeline.csv").string(), report.estimates, report.truth);
+  writeForecastsCsv((folder / "forecasts.csv").string(), report.forecasts);
+  writeFilterCsv((folder / "filter.csv").string(), report.diagnostics.filter);
+  writeWheelTrackCsv((folder / "wheel_track.csv").string(), report.diagnostics.wheel_only);
+  writeSlipForecastsCsv((folder / "slip_forecasts.csv").string(), report.diagnostics.slip_forecasts);
+  writeNeesCsv((folder / "nees.csv").string(), report.estimates, report.truth);
+  writeMetricsJson((folder / "metrics.json").string(), report.metrics);
+}
+
+std::string tableHeader() {
+  const auto group = [](std::size_t i) { return std::string(kColumns[i].group); };
+  const auto title = [](std::size_t i) { return std::string(kColumns[i].title); };
+  return tableLine("", group) + tableLine("", title);
+}
+
+std::string tableRow(const std::string& name, std::optional<double> threshold_m, const Metrics& metrics) {
+  const std::array<std::optional<double>, kColumns.size()> values = {metrics.distance_m,
+                                                                     threshold_m,
+                                                                     static_cast<double>(metrics.stop_count),
+                                                                     metrics.duration_s,
+                                                                     metrics.enu_error_pct,
+                                                                     metrics.median_error_pct,
+                                                                     metrics.horizontal_median_m,
+                                                                     metrics.horizontal_std_m,
+                                                                     metrics.horizontal_max_m,
+                                                                     metrics.rms_east_m,
+                                                                     metrics.rms_north_m,
+                                                                     metrics.rms_up_m};
+  return tableLine(name, [&values](std::size_t i) { return cell(values[i], kColumns[i].decimals); });
+}
+
+}  // namespace slipnav

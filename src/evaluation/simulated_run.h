@@ -1,0 +1,72 @@
+#pragma once
+/// Navigates and measures a simulated drive while it goes on.
+
+#include <variant>
+#include <vector>
+
+#include "evaluation/offline_run.h"
+#include "evaluation/simulated_drive.h"
+#include "evaluation/simulated_judge.h"
+
+namespace slipnav {
+
+/// Feeds the intervals of a simulated drive to an OfflineRun; truth for the metrics are the simulated fixes.
+class SimulatedRun {
+ public:
+  /// @param with_baselines also without zero updates, and with forecasts
+  explicit SimulatedRun(const Config& config, bool with_baselines = true);
+
+  /// Who is to have every estimate, as soon as there is one.
+  void onEstimate(FilterEngine::EstimateSink sink) { on_estimate_ = std::move(sink); }
+
+  /// Who is to have each forecast, after its estimate.
+  void onForecast(ForecastRecorder::Sink sink) { run_.onForecast(std::move(sink)); }
+
+  /// One interval of the drive.
+  void add(const sim::Measurements& measurements, const sim::TruthState& truth);
+
+  /// Throws std::runtime_error when the initialisation never ended, saying what it was waiting for.
+  RunReport finish();
+
+  /// After finish().
+  SimulationFigures figures() const;
+
+  // For pushMeasurements(): what is stamped late may come after what was measured later.
+  void push(const AntennaFix& fix) { enqueue(stampOf(fix), fix); }
+  void push(const WheelMotion& wheels) { enqueue(wheels.stamp, wheels); }
+  void push(const ImuSample& sample) { enqueue(sample.stamp, sample); }
+
+ private:
+  using Sample = std::variant<AntennaFix, WheelMotion, ImuSample>;
+  struct Stamped {
+    Nanoseconds stamp;
+    Sample sample;
+  };
+  void enqueue(Nanoseconds stamp, const Sample& sample);
+  void release(Nanoseconds until);
+
+  Planet planet_;
+  WheelGeometry geometry_;
+  Vector3 imu_position_b_;
+  double initial_straight_m_;
+  bool exact_stamps_;
+  Nanoseconds earliest_stamp_;  ///< how much a stamp may be before the instant
+  OfflineRun run_;
+  SimulatedJudge judge_;
+  FilterEngine::EstimateSink on_estimate_;
+  std::vector<Stamped> waiting_;  ///< in order of stamp
+};
+
+/// What came of a simulated drive.
+struct SimulationReport {
+  RunReport run;
+  SimulationFigures figures;
+};
+
+/// Drives with a policy that is given the estimates as they come, from begin to end.
+/// @param recorder what else is to be done with each interval
+/// @param with_baselines see SimulatedRun; forecasts come only with them
+SimulationReport simulateAndMeasure(const Config& config, StopPolicy& policy, const DriveSink& recorder = {},
+                                    bool with_baselines = true);
+
+}  // namespace slipnav

@@ -1,0 +1,121 @@
+#include "evaluation/slip_forecast.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+
+#include "core/base/text.h"
+
+namespace slipnav {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const char* const blanks = " \t\r";
+  const std::size_t first = text.find_first_not_of(blanks);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::optional<double> parseField(const std::string& text) {
+  return text == "nan" || text == "NaN" ? std::numeric_limits<double>::quiet_NaN() : parseNumber(text);
+}
+
+/// @return whether the row is `number,number`
+bool appendRow(const std::string& row, SlipSamples& samples) {
+  const std::size_t comma = row.find(',');
+  if (comma == std::string::npos) {
+    return false;
+  }
+  const std::optional<double> time_s = parseField(trimmed(row.substr(0, comma)));
+  const std::optional<double> slip = parseField(trimmed(row.substr(comma + 1)));
+  if (!time_s || !slip) {
+    return false;
+  }
+  samples.times_s.push_back(*time_s);
+  samples.slips.push_back(*slip);
+  return true;
+}
+
+std::string jsonArray(const Eigen::VectorXd& values) {
+  std::string text = "[";
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    text += (i == 0 ? "" : ", ") + formatNumber(values(i));
+  }
+  return text + "]";
+}
+
+std::string jsonObject(const std::vector<std::pair<std::string, double>>& members) {
+  std::string text = "{";
+  for (const auto& [name, value] : members) {
+    text += (text.size() == 1 ? "\"" : ", \"") + name + "\": " + formatNumber(value);
+  }
+  return text + "}";
+}
+
+double lastUsableTime(const SlipSamples& samples) {
+  const SlipWindow window = makeSlipWindow(samples);
+  return window.origin_s + window.times(window.size() - 1);
+}
+
+}  // namespace
+
+SlipSamples readSlipCsv(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) {
+    throw std::invalid_argument(path + ": cannot be read");
+  }
+  SlipSamples samples;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    const std::string row = trimmed(line);
+    if (!row.empty() && !appendRow(row, samples) && number > 1) {
+      throw std::invalid_argument(path + ":" + std::to_string(number) + ": expected time_s,slip, not '" + row + "'");
+    }
+  }
+  return samples;
+}
+
+SlipForecastResult forecastSlip(const SlipSamples& samples, const SlipModelParameters& parameters, double horizon_s) {
+  const auto steps = static_cast<Eigen::Index>(std::floor(horizon_s / kSlipForecastStep_s + 1e-9));
+  if (steps < 2) {
+    throw std::invalid_argument("slip forecast: the horizon must be two steps of 0.1 s at least");
+  }
+  GaussianProcessSlipModel model(parameters);
+  SlipForecastResult forecast;
+  forecast.model = parameters.model;
+  forecast.fit = model.fit(samples);
+  if (!isAccepted(forecast.fit.status)) {
+    throw std::invalid_argument("slip forecast: " + std::string(toString(forecast.fit.status)) + " (" +
+                                std::to_string(forecast.fit.samples) + " usable)");
+  }
+  const double last_s = lastUsableTime(samples);
+  const auto count = static_cast<double>(steps);
+  forecast.prediction =
+      model.predict(last_s + Eigen::ArrayXd::LinSpaced(steps, kSlipForecastStep_s, count * kSlipForecastStep_s));
+  forecast.correlation = summarizeCorrelation(model, last_s + kSlipForecastStep_s, horizon_s);
+  return forecast;
+}
+
+std::string toJson(const SlipForecastResult& forecast) {
+  const GaussMarkovSlip& correlation = forecast.correlation;
+  std::string text = "{\n";
+  text += "  \"model\": \"" + forecast.model + "\",\n";
+  text += "  \"status\": \"" + std::string(toString(forecast.fit.status)) + "\",\n";
+  text += "  \"origin_s\": " + formatNumber(forecast.fit.origin_s) + ",\n";
+  text += "  \"hyperparameters\": " + jsonObject(forecast.fit.hyperparameters) + ",\n";
+  text += "  \"log_marginal_likelihood\": " + formatNumber(forecast.fit.log_marginal_likelihood) + ",\n";
+  text += "  \"samples\": " + std::to_string(forecast.fit.samples) + ",\n";
+  text += "  \"left_out\": " + std::to_string(forecast.fit.left_out) + ",\n";
+  text += "  \"correlation\": " +
+          jsonObject({{"bias_stddev", correlation.bias_stddev},
+                      {"stddev", correlation.stddev},
+                      {"time_constant_s", correlation.time_constant_s}}) +
+          ",\n";
+  text += "  \"t\": " + jsonArray(forecast.prediction.times_s) + ",\n";
+  text += "  \"mean\": " + jsonArray(forecast.prediction.mean) + ",\n";
+  text += "  \"stddev\": " + jsonArray(forecast.prediction.stddev) + "\n}\n";
+  return text;
+}
+
+}  // namespace slipnav

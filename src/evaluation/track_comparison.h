@@ -1,0 +1,22 @@
+#pragma once
+/// Two estimates of the same drive.
+
+#include <cstddef>
+#include <string>
+
+#include "evaluation/estimate.h"
+
+namespace slipnav {
+
+/// How far two tracks are apart where they have the same stamps.
+struct TrackComparison {
+  std::size_t common = 0;  ///< epochs that both have
+  double largest_m = 0.0;  ///< largest distance between them there
+};
+
+TrackComparison compareTracks(const EstimateTrack& a, const EstimateTrack& b);
+
+/// One line for people, with a newline. @param name of the run that is compared with the offline one
+std::string comparisonText(const std::string& name, const EstimateTrack& run, const EstimateTrack& offline);
+
+}  // namespace slipnav

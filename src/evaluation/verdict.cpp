@@ -1,0 +1,64 @@
+#include "evaluation/verdict.h"
+
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+namespace slipnav {
+namespace {
+
+/// Position errors of one drive are strongly correlated: its mean NEES scatters by a factor of a few about 1.
+constexpr double kLargestNees = 4.0;
+constexpr double kSmallestNees = 0.2;
+constexpr double kLeastCoverage_pct = 95.0;
+/// Wheels and gyro alone may win by luck on one drive.
+constexpr double kWorseFactor = 1.2;
+constexpr double kWorseSpare_pct = 0.3;
+
+class Text {
+ public:
+  Text() {
+    out_.imbue(std::locale::classic());
+    out_ << std::setprecision(3);
+  }
+  template <class Value>
+  Text& operator<<(const Value& value) {
+    out_ << value;
+    return *this;
+  }
+  std::string str() const { return out_.str(); }
+
+ private:
+  std::ostringstream out_;
+};
+
+std::string consistencyOf(const Metrics& metrics) {
+  if (!metrics.coverage_3sigma_pct) {
+    return "not judged: no truth";
+  }
+  const double nees = metrics.position_nees_mean.value_or(1.0);
+  if (nees > kLargestNees || *metrics.coverage_3sigma_pct < kLeastCoverage_pct) {
+    return (Text() << "over-confident: 3 sigma cover " << *metrics.coverage_3sigma_pct << " % of the errors, NEES "
+                   << nees)
+        .str();
+  }
+  return nees < kSmallestNees ? "cautious" : "consistent";
+}
+
+}  // namespace
+
+std::string verdictOf(const Metrics& metrics, bool uses_stops) {
+  Text verdict;
+  verdict << consistencyOf(metrics);
+  if (metrics.final_pct && metrics.wheel_only_error_pct &&
+      *metrics.final_pct > kWorseFactor * *metrics.wheel_only_error_pct + kWorseSpare_pct) {
+    verdict << "; worse than wheels and gyro alone: " << *metrics.final_pct << " % of the distance at the end, not "
+            << *metrics.wheel_only_error_pct << " %";
+  }
+  if (uses_stops && metrics.stops_used < metrics.stops_seen) {
+    verdict << "; stops seen but not used: " << metrics.stops_seen - metrics.stops_used << " of " << metrics.stops_seen;
+  }
+  return verdict.str();
+}
+
+}  // namespace slipnav

@@ -1,0 +1,19 @@
+#pragma once
+/// Whether the clocks of wheels and IMU agree, by the motion that both see.
+
+#include "inspection/motion_table.h"
+
+namespace slipnav {
+
+/// By correlation over shifts of half a minute either way.
+struct ClockOffset {
+  bool known = false;           ///< one shift fits clearly better than all others
+  double wheels_ahead_s = 0.0;  ///< stamps of the wheels less those of the IMU, of the same motion
+  double correlation = 0.0;
+  bool by_turns = false;  ///< heading rates; else accelerations
+};
+
+/// @param up direction of the mean specific force in the sensor's axes
+ClockOffset correlateClocks(const ImuTrack& imu, const WheelTrack& wheels, const Vector3& up);
+
+}  // namespace slipnav

@@ -1,0 +1,114 @@
+#pragma once
+/// A recording as it is: no axes turned, no units changed, nothing left out.
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "slipnav/core/base/sensors.h"
+#include "slipnav/core/base/types.h"
+
+namespace slipnav {
+
+/// When a message was stamped and when it was recorded.
+struct MessageTime {
+  Nanoseconds stamp = 0;
+  Nanoseconds received = 0;
+};
+
+/// In the sensor's own axes; [m/s²] and [rad/s] if the driver does as it should.
+struct RawImuSample {
+  MessageTime time;
+  Vector3 specific_force = Vector3::Zero();
+  Vector3 angular_rate = Vector3::Zero();
+};
+
+/// One sensor: a topic and a frame_id.
+struct ImuRecord {
+  std::string topic;
+  std::string frame;
+  std::vector<RawImuSample> samples;
+  std::size_t without_force = 0;  ///< messages that say so: linear_acceleration_covariance[0] = -1
+  std::size_t without_rate = 0;   ///< likewise angular_velocity_covariance[0] = -1
+};
+
+/// Values in the order of the names of the record; empty where the message has none.
+struct RawJointSample {
+  MessageTime time;
+  std::vector<double> position_rad;
+  std::vector<double> velocity_radps;
+};
+
+/// The messages of one topic that have the same joints.
+struct JointRecord {
+  std::string topic;
+  std::vector<std::string> names;
+  std::vector<RawJointSample> samples;
+};
+
+/// Pose and motion of an odometry; of a pose the motion is absent.
+struct RawPoseSample {
+  MessageTime time;
+  Vector3 position_m = Vector3::Zero();
+  std::optional<Quaternion> q_to_parent;  ///< attitude, where it is known
+  double forward_mps = 0.0;
+  double yaw_rate_radps = 0.0;  ///< positive left
+};
+
+/// A topic of odometry or poses.
+struct PoseRecord {
+  std::string topic;
+  std::string frame;
+  bool has_motion = false;  ///< nav_msgs/Odometry
+  std::vector<RawPoseSample> samples;
+};
+
+/// A position by satellites, whatever its status says.
+struct RawFixSample {
+  MessageTime time;
+  bool has_fix = false;     ///< by its status
+  bool is_nowhere = false;  ///< latitude 0, longitude 0
+  bool is_usable = false;   ///< finite, in range, with a fix
+  bool has_covariance = false;
+  GnssFix fix;
+};
+
+struct FixRecord {
+  std::string topic;
+  std::string frame;
+  std::vector<RawFixSample> samples;
+};
+
+/// A pose in /tf or /tf_static.
+struct TransformRecord {
+  std::string parent;
+  std::string child;
+  bool is_static = false;  ///< latched in /tf_static
+  Vector3 position_m = Vector3::Zero();
+  Quaternion q_child_to_parent = Quaternion::Identity();
+};
+
+/// Every topic, also those of no use here.
+struct TopicRecord {
+  std::string topic;
+  std::string type;
+  std::size_t messages = 0;
+  std::size_t publishers = 0;
+};
+
+/// All parts of one drive together, in the order in which they were recorded.
+struct Recording {
+  Nanoseconds begin = 0;
+  Nanoseconds end = 0;
+  std::vector<TopicRecord> topics;
+  std::vector<ImuRecord> imus;
+  std::vector<JointRecord> joints;
+  std::vector<PoseRecord> poses;
+  std::vector<FixRecord> fixes;
+  std::vector<TransformRecord> transforms;
+  std::vector<std::string> damage;  ///< messages that could not be read: what was wrong
+};
+
+}  // namespace slipnav

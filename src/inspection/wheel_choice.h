@@ -1,0 +1,34 @@
+#pragma once
+/// Which joints are the wheels, and on which side they are, by their names and by how they turn.
+
+#include <string>
+#include <vector>
+
+#include "inspection/recording.h"
+#include "slipnav/core/sensors/wheel_geometry.h"
+
+namespace slipnav {
+
+enum class Side { kUnknown, kLeft, kRight };
+
+/// By the words in a name: "left", "right", and the usual shorts (fl, rr, l, r).
+Side sideOf(const std::string& name);
+
+/// A joint that drives the vehicle.
+struct WheelJoint {
+  std::size_t index = 0;  ///< in the arrays of its record
+  std::string name;       ///< "" where messages have no names
+  Side side = Side::kUnknown;
+  double sign = 1.0;      ///< −1 where it counts backwards when the vehicle drives forward
+  double radius_m = 0.0;  ///< 0: not known
+  double y_m = 0.0;       ///< left of the middle; 0: not known
+};
+
+/// Of the joints of a record those that are called wheels; where none is, those with a side; else those that have
+/// turned at all. Signs are not known yet.
+std::vector<WheelJoint> wheelsByName(const JointRecord& record);
+
+/// The configured wheels, with their geometry, that are in the record.
+std::vector<WheelJoint> wheelsByConfiguration(const JointRecord& record, const std::vector<WheelParams>& wheels);
+
+}  // namespace slipnav

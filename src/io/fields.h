@@ -1,0 +1,31 @@
+#pragma once
+/// Fields of text files, independent of the locale.
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "slipnav/core/base/types.h"
+
+namespace slipnav {
+
+/// Pieces of a line between the given separators; empty pieces are left out.
+std::vector<std::string> splitFields(const std::string& line, const char* separators = " \t\r");
+
+/// The finite number that makes up the whole field. Throws std::invalid_argument that quotes anything else.
+double numberField(const std::string& field);
+
+/// As numberField(), for a whole number.
+int integerField(const std::string& field);
+
+/// Seconds in plain decimal notation to nanoseconds, exact to the ninth decimal; further ones are cut off. Throws
+/// std::invalid_argument that quotes anything else.
+Nanoseconds secondsField(const std::string& field);
+
+/// Seconds with nine decimals, exact; the inverse of secondsField().
+std::string formatSeconds(Nanoseconds t);
+
+/// The components, each after a comma.
+void writeVector(std::ostream& out, const Vector3& v);
+
+}  // namespace slipnav

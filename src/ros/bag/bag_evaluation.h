@@ -1,0 +1,52 @@
+#pragma once
+/// A recording through the pipeline as fast as it goes, and what comes out of it.
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "config/config.h"
+#include "evaluation/report.h"
+#include "ros/bag/bag_reader.h"
+#include "ros/bag/odometry_log.h"
+
+namespace slipnav {
+
+/// The report of a recording, and what there is to say about its messages.
+struct BagEvaluation {
+  RunReport report;
+  OdometryLog odometry;   ///< what the nodelets publish for this recording
+  Alarms problems;        ///< messages that could not be used: what was wrong
+  Alarms alarms;          ///< the same, and what the monitoring has named
+  Nanoseconds begin = 0;  ///< of the recording
+};
+
+/// No start could be found. What was wrong until then comes along.
+class NoStart : public std::runtime_error {
+ public:
+  NoStart(const std::string& what, BagEvaluation evaluation)
+      : std::runtime_error(what), evaluation_(std::move(evaluation)) {}
+  /// Without estimates; the metrics hold problems and alarms.
+  const BagEvaluation& evaluation() const { return evaluation_; }
+
+ private:
+  BagEvaluation evaluation_;
+};
+
+/// @param range the part of the recording to use
+/// @param truth topic or RTKLIB file (.pos) of the truth; "" for what the recording has, see BagReader
+/// Throws std::invalid_argument for a recording that cannot be used, NoStart when no start could be found.
+BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
+                          const BagRange& range);
+
+/// The report with other estimates of the same drive in the place of its own; errors, stops and times become theirs.
+/// @param wall_s what it took to make them [s]
+RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates, double wall_s);
+
+/// Draws the plots of a report that is in `directory`. Throws std::runtime_error when that fails.
+void plotReport(const std::string& directory);
+
+/// Name of a run in tables: the file without folder and ending.
+std::string runName(const std::string& path);
+
+}  // namespace slipnav

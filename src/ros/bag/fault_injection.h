@@ -1,0 +1,48 @@
+#pragma once
+/// What can happen to sensors and their messages, done to a recording on purpose.
+
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/Imu.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/NavSatFix.h>
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "config/config.h"
+#include "slipnav/core/base/types.h"
+
+namespace slipnav {
+
+/// One message of a recording.
+struct RecordedMessage {
+  ros::Time time;  ///< when it was recorded
+  std::string topic;
+  std::variant<sensor_msgs::Imu, sensor_msgs::JointState, sensor_msgs::NavSatFix, nav_msgs::Odometry> content;
+};
+
+using Recording = std::vector<RecordedMessage>;
+
+/// The messages of a bag that are of one of those types. Throws std::runtime_error when it cannot be read.
+Recording readRecording(const std::string& path);
+void writeRecording(const std::string& path, const Recording& recording);
+
+/// When faults begin; each lasts as long as is typical for it.
+struct FaultTimes {
+  ros::Time drive;           ///< in the middle of the drive
+  ros::Time initialisation;  ///< while the start is looked for
+};
+
+/// One fault: its name, and the change that it makes to a recording.
+struct Fault {
+  std::string name;
+  std::function<void(Recording&, const FaultTimes&)> inject;
+  bool at_initialisation = false;
+};
+
+/// All of them. @param config names topics and ranges
+std::vector<Fault> allFaults(const Config& config);
+
+}  // namespace slipnav

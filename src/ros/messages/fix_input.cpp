@@ -1,0 +1,54 @@
+#include "ros/messages/fix_input.h"
+
+#include <optional>
+
+#include "ros/messages/conversions.h"
+
+namespace slipnav {
+namespace {
+
+constexpr Nanoseconds kKept = 20 * kSecond;  // a start is told sooner
+
+}  // namespace
+
+FixInput::FixInput(const Config& config)
+    : topic_(config.topics.gps_fix), stamp_offset_(fromSeconds(config.initialization.fix_stamp_offset_s)) {}
+
+std::vector<PositionFix> FixInput::take(const sensor_msgs::NavSatFix& message, const ContinuousTime& time) {
+  std::vector<PositionFix> fixes;
+  problem_ = complaintOf(message, topic_);
+  std::optional<GnssFix> fix = problem_.empty() ? toGnssFix(message) : std::nullopt;
+  if (fix) {
+    fix->stamp += stamp_offset_;
+    jumps_.push(toPositionFix(*fix), [&](PositionFix passed) {
+      steps_.add(passed.stamp);
+      passed.stamp = time.toContinuous(passed.stamp, steps_.steps());
+      keep(passed);
+      fixes.push_back(passed);
+    });
+  }
+  return fixes;
+}
+
+/// A fix that is a second older than the newest one is of a clock that has begun again.
+void FixInput::keep(const PositionFix& fix) {
+  if (!newest_.empty() && fix.stamp <= newest_.back().stamp - kRestartBackstep) {
+    newest_.clear();
+  }
+  newest_.push_back(fix);
+  while (newest_.front().stamp < fix.stamp - kKept) {
+    newest_.pop_front();
+  }
+}
+
+std::vector<PositionFix> FixInput::after(Nanoseconds stamp) const {
+  std::vector<PositionFix> fixes;
+  for (const PositionFix& fix : newest_) {
+    if (fix.stamp > stamp && fix.stamp < stamp + kKept) {
+      fixes.push_back(fix);
+    }
+  }
+  return fixes;
+}
+
+}  // namespace slipnav

@@ -1,0 +1,43 @@
+#pragma once
+/// Satellite positions on their way from messages to a filter that uses them while driving.
+
+#include <sensor_msgs/NavSatFix.h>
+
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "config/config.h"
+#include "core/ordering/continuous_time.h"
+#include "core/ordering/jump_filter.h"
+#include "slipnav/core/ekf/models/gnss_fix.h"
+
+namespace slipnav {
+
+/// Refuses what is no fix and single wrong stamps, and keeps the newest: the start is told later than they come.
+class FixInput {
+ public:
+  explicit FixInput(const Config& config);
+
+  /// @param time of the IMU, whose clock may have been set back
+  /// @return the fixes that may be used now, in continuous time; mostly one
+  std::vector<PositionFix> take(const sensor_msgs::NavSatFix& message, const ContinuousTime& time);
+
+  /// What was wrong with the last message, "" when nothing.
+  const std::string& problem() const { return problem_; }
+
+  /// Those that a filter which starts at `stamp` has to get. None when all are of another time.
+  std::vector<PositionFix> after(Nanoseconds stamp) const;
+
+ private:
+  void keep(const PositionFix& fix);
+
+  std::string topic_;
+  Nanoseconds stamp_offset_;
+  JumpFilter<PositionFix> jumps_{kFixJump};
+  StepCount steps_;
+  std::deque<PositionFix> newest_;
+  std::string problem_;
+};
+
+}  // namespace slipnav

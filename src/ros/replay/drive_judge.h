@@ -1,0 +1,37 @@
+#pragma once
+/// What is to be said about a simulated drive through the nodelets.
+
+#include <nav_msgs/Odometry.h>
+#include <slipnav/Initialization.h>
+#include <slipnav/NavState.h>
+#include <slipnav/Slip.h>
+#include <slipnav/StopStatus.h>
+
+#include <string>
+
+#include "simulation/simulator.h"
+
+namespace slipnav {
+
+/// Is told of the drive, and of what the nodelets make of it. Messages that a judge has no use for may be kept from it.
+class DriveJudge {
+ public:
+  virtual ~DriveJudge() = default;
+
+  /// One interval, before its samples are published.
+  virtual void add(const sim::Measurements& measurements, const sim::TruthState& truth) = 0;
+  virtual void add(const nav_msgs::Odometry& message) = 0;
+  virtual void add(const NavState&) {}
+  virtual void add(const Slip&) {}
+  virtual void add(const StopStatus&) {}
+  virtual void add(const Initialization&) {}
+
+  /// Up to which it has the estimates.
+  virtual Nanoseconds newestStamp() const = 0;
+  /// The drive may end before its script does.
+  virtual bool hasSeenEnough() const { return false; }
+  /// Called once, in the end. @return what it has to say, for people
+  virtual std::string verdict() = 0;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,59 @@
+#pragma once
+/// One recording played through the nodelets that are running, and what they made of it.
+
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "config/topics.h"
+#include "ros/bag/odometry_log.h"
+#include "ros/replay/estimate_recorder.h"
+
+namespace slipnav {
+
+/// Which part of a recording is played, and how fast.
+struct ReplayOptions {
+  std::string bag;
+  double rate = 1.0;        ///< factor on real time
+  double start_s = 0.0;     ///< from the beginning of the recording
+  double duration_s = 0.0;  ///< 0: up to its end
+};
+
+/// Subscribes, plays, and collects the estimates.
+class ReplaySession {
+ public:
+  /// What to listen to, relative to the node's namespace. With odometry alone,
+  /// recorder() has nothing of the rest.
+  enum class Outputs { kAll, kOdometry };
+
+  explicit ReplaySession(const TopicNames& topics, Outputs outputs = Outputs::kAll);
+
+  /// Waits until all nodelets are there and connected. Throws std::runtime_error that says what is missing.
+  void waitForNodelets();
+
+  /// Plays with rosbag play, with its clock, all topics that somebody listens to, less those that the nodelets publish
+  /// themselves, commands and moving transforms, until the estimate of `last_stamp`
+  /// has come: the player is not let go before, as its queues would go with it. Nobody misses a message: playing starts
+  /// when everybody is connected, and queues hold whatever comes. Where nothing comes for a minute, neither an estimate
+  /// nor the clock, that is the end as well. Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
+  void play(const ReplayOptions& options, Nanoseconds last_stamp);
+
+  const EstimateRecorder& recorder() const { return recorder_; }
+  const OdometryLog& odometry() const { return odometry_; }
+
+ private:
+  /// Of the estimates that are complete.
+  Nanoseconds newestStamp() const {
+    return outputs_ == Outputs::kOdometry ? odometry_.newestStamp() : recorder_.newestStamp();
+  }
+
+  ros::NodeHandle node_;
+  TopicNames topics_;
+  Outputs outputs_;
+  EstimateRecorder recorder_;
+  OdometryLog odometry_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,34 @@
+#pragma once
+/// What a HealthMonitor has found, as diagnostics.
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "slipnav/core/navigation/health.h"
+
+namespace slipnav {
+
+/// How long an alarm is a warning after it was seen last [s] of real time. Longer than between two reports, so that
+/// none is missed; short, so that who has mended something sees it.
+inline constexpr double kAlarmLifetime_s = 1.0;
+
+/// Remembers when each alarm was seen last, in real time: where stamps stand still, alarms end nevertheless.
+class HealthReport {
+ public:
+  /// Adds one line for each thing that has ever been wrong; those that are still are a warning.
+  /// @param now_s any clock that only runs forward
+  void add(const HealthMonitor& health, double now_s, diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  struct Seen {
+    std::uint64_t count = 0;
+    double time_s = 0.0;
+  };
+
+  std::map<std::string, Seen> seen_;
+};
+
+}  // namespace slipnav

@@ -1,0 +1,17 @@
+#pragma once
+/// The words of the overlay.
+
+#include <string>
+
+#include "ros/rviz/marker_sketch.h"
+#include "ros/rviz/overlay_markers.h"
+
+namespace slipnav {
+
+/// Printf-style number: `formatted(0.123, 2)` is "0.12".
+std::string formatted(double value, int decimals);
+
+/// What the colours mean; placed from the rover.
+void drawLegend(const OverlayParams& params, MarkerSketch& sketch);
+
+}  // namespace slipnav

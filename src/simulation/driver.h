@@ -1,0 +1,42 @@
+#pragma once
+/// The scripted operator, who sees the true pose: rest, straight initialisation drive, winding route, rest.
+
+#include "simulation/params.h"
+#include "simulation/route.h"
+#include "simulation/simulator.h"
+#include "simulation/truth_state.h"
+
+namespace slipnav::sim {
+
+/// Works through its phases by what it sees of the rover.
+class Driver {
+ public:
+  explicit Driver(const SimulatorParams& params);
+
+  /// The path that these parameters give.
+  static Route routeOf(const SimulatorParams& params);
+
+  /// Command for the coming interval. A rover that is given another one, because somebody stops it, is led on from
+  /// where it is.
+  Command command(const TruthState& truth);
+
+  /// The initial rest and the straight drive are over: the distance that counts has begun.
+  bool initialisationDriveDone() const { return phase_ >= Phase::kRoute; }
+  /// Distance and final rest are done.
+  bool finished() const { return phase_ == Phase::kFinished; }
+
+ private:
+  enum class Phase { kInitialRest, kInitialStraight, kRoute, kFinalRest, kFinished };
+
+  void advancePhase(const TruthState& truth);
+  double steer(const TruthState& truth);
+
+  DriveParams params_;
+  Route route_;
+  Nanoseconds start_stamp_;
+  Nanoseconds rest_start_stamp_ = 0;
+  double route_start_m_ = 0.0;
+  Phase phase_ = Phase::kInitialRest;
+};
+
+}  // namespace slipnav::sim

@@ -1,0 +1,110 @@
+#include "config/config.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "config/config_options.h"
+#include "config/yaml_document.h"
+#include "config/yaml_reader.h"
+#include "config/yaml_writer.h"
+#include "core/parameters/parameter_checker.h"
+#include "support/sample_parameters.h"
+
+namespace slipnav {
+namespace {
+
+using test::messageOf;
+
+/// A file in the test's own temporary folder, removed at the end.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& name, const std::string& content) : path_(::testing::TempDir() + "slipnav_" + name) {
+    std::ofstream(path_) << content;
+  }
+  ~TemporaryFile() { std::remove(path_.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string complaint(const std::vector<std::string>& files, const std::vector<Override>& overrides = {}) {
+  return messageOf<std::invalid_argument>([&] { Config::load(files, overrides); });
+}
+
+TEST(Config, WithoutFilesHasTheDefaults) {
+  const Config config = Config::load({});
+  EXPECT_EQ(config.planet, "earth");
+  EXPECT_EQ(config.topics.imu, "imu/data");
+  EXPECT_NO_THROW(checkParameters(config));
+}
+
+TEST(Config, EveryTopicIsCalledByItsBoundaryName) {
+  const YAML::Node topics = parseYaml(toYaml(TopicNames{}), "");
+  EXPECT_EQ(topics.size(), 23U);
+  for (const auto& entry : topics) {
+    EXPECT_EQ(entry.first.Scalar(), entry.second.Scalar());
+  }
+}
+
+TEST(Config, LaterFilesWin) {
+  const TemporaryFile first("first.yaml", "planet: mars\ntopics: {imu/data: a, cmd_vel: b}\n");
+  const TemporaryFile second("second.yaml", "topics:\n  imu/data: c\n");
+  const Config config = Config::load({first.path(), second.path()});
+  EXPECT_EQ(config.planet, "mars");
+  EXPECT_EQ(config.topics.imu, "c");
+  EXPECT_EQ(config.topics.cmd_vel, "b");
+  EXPECT_EQ(Config::load({second.path(), first.path()}).topics.imu, "a");
+}
+
+TEST(Config, ErrorsNameTheFileThatHoldsThem) {
+  const TemporaryFile good("good.yaml", "planet: mars\n");
+  const TemporaryFile bad("bad.yaml", "# comment\nplanet: venus\n");
+  EXPECT_EQ(complaint({good.path(), bad.path()}), bad.path() + ":2: 'planet' must be earth, mars or moon, not 'venus'");
+  EXPECT_EQ(complaint({good.path(), "no/such.yaml"}), "no/such.yaml: cannot be read");
+}
+
+TEST(Config, OverridesWinOverFiles) {
+  const TemporaryFile file("file.yaml", "planet: mars\ntopics: {imu/data: a}\n");
+  const Config config = Config::load({file.path()}, {topicOverride("imu/data:=/imu"), keyOverride("planet=moon")});
+  EXPECT_EQ(config.planet, "moon");
+  EXPECT_EQ(config.topics.imu, "/imu");
+}
+
+TEST(Config, WrongOverridesAreNamed) {
+  EXPECT_EQ(complaint({}, {topicOverride("imu/dta:=x")}),
+            "--topic imu/dta:=x: unknown key 'topics.imu/dta', did you mean 'topics.imu/data'?");
+  EXPECT_EQ(complaint({}, {keyOverride("planet=venus")}),
+            "--set planet=venus: 'planet' must be earth, mars or moon, not 'venus'");
+  EXPECT_EQ(complaint({}, {keyOverride("planet=[a")}).rfind("--set planet=[a: ", 0), 0U);
+  EXPECT_EQ(messageOf<std::invalid_argument>([] { topicOverride("imu/data=x"); }),
+            "--topic 'imu/data=x' must have the form name:=other");
+  EXPECT_EQ(messageOf<std::invalid_argument>([] { keyOverride("=x"); }),
+            "--set '=x' must have the form block.key=value");
+}
+
+TEST(Config, OverridesReachNestedBlocksAndHoldAnyYaml) {
+  test::SampleParameters parameters;
+  readParameters(toYamlNode(keyOverride("filter.updates=[wheel, zupt]")), parameters);
+  EXPECT_EQ(parameters.filter.updates, (std::vector<std::string>{"wheel", "zupt"}));
+}
+
+TEST(Config, OptionsOfAnExecutableBecomeAConfiguration) {
+  const TemporaryFile file("options.yaml", "planet: mars\n");
+  CommandLine command_line("tool", "A tool.");
+  declareConfigOptions(command_line);
+  const Config config = configFromOptions(command_line.parse(
+      {"--config", file.path(), "--topic", "gps/fix:=/gps", "--topic=cmd_vel:=/cmd", "--set", "planet=moon"}));
+  EXPECT_EQ(config.topics.gps_fix, "/gps");
+  EXPECT_EQ(config.topics.cmd_vel, "/cmd");
+  EXPECT_EQ(config.planet, "moon");
+}
+
+}  // namespace
+}  // namespace slipnav

@@ -1,0 +1,78 @@
+#include "slipnav/core/ekf/adaptation/imu_noise_meter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulation/random.h"
+
+namespace slipnav::test {
+namespace {
+
+constexpr double kPeriod_s = 0.02;
+
+TEST(ImuNoiseMeter, FindsTheDensityOfWhiteNoiseBelowASmoothMotion) {
+  for (const double std : {0.001, 0.4}) {
+    ImuNoiseMeter meter;
+    sim::RandomStream random(1, "noise");
+    double sum = 0.0;
+    int n = 0;
+    for (int i = 0; i < 5000; ++i) {
+      const double t_s = kPeriod_s * i;
+      const Vector3 smooth(3.0 * std::sin(0.5 * t_s), 1.0, -9.8);
+      meter.add(smooth + std * random.normal3(), 0.1 * std * random.normal3(), kPeriod_s);
+      if (i > 500) {
+        sum += meter.density().accel.mean();
+        ++n;
+      }
+    }
+    const double expected = std * std * kPeriod_s;
+    EXPECT_GT(sum / n, 0.5 * expected);  // the smallest of four estimates lies below their mean
+    EXPECT_LT(sum / n, 1.1 * expected);
+  }
+}
+
+/// What shakes about a place: white noise of a velocity, whose increments the accelerometer senses.
+TEST(ImuNoiseMeter, BoundedShakingIsLessThanItsSamplesSay) {
+  ImuNoiseMeter meter;
+  sim::RandomStream random(1, "noise");
+  Vector3 before = Vector3::Zero();
+  double sample_variance = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vector3 velocity = 0.005 * random.normal3();
+    const Vector3 f = (velocity - before) / kPeriod_s;
+    sample_variance += f.squaredNorm() / 3.0 / 2000.0;
+    before = velocity;
+    meter.add(f, Vector3::Zero(), kPeriod_s);
+  }
+  EXPECT_LT(meter.density().accel.mean(), 0.4 * sample_variance * kPeriod_s);
+}
+
+TEST(ImuNoiseMeter, ShakingCountsAtOnce) {
+  ImuNoiseMeter meter;
+  sim::RandomStream random(1, "noise");
+  const auto shake = [&](double std, double duration_s) {
+    for (int i = 0; i < static_cast<int>(duration_s / kPeriod_s); ++i) {
+      meter.add(std * random.normal3(), Vector3::Zero(), kPeriod_s);
+    }
+  };
+  shake(0.001, 60.0);
+  shake(0.4, 0.8);
+  EXPECT_GT(meter.density().accel.mean(), 0.4 * 0.4 * 0.4 * kPeriod_s);
+}
+
+TEST(ImuNoiseMeter, AGapIsNoNoise) {
+  ImuNoiseMeter meter;
+  sim::RandomStream random(1, "noise");
+  for (int i = 0; i < 1000; ++i) {
+    if (i == 500) {
+      meter.interrupt();
+    }
+    const Vector3 offset = i < 500 ? Vector3::Zero() : Vector3(5.0, 0.0, 0.0);
+    meter.add(offset + 0.001 * random.normal3(), Vector3::Zero(), kPeriod_s);
+  }
+  EXPECT_LT(meter.density().accel.x(), 1e-7);
+}
+
+}  // namespace
+}  // namespace slipnav::test

@@ -1,0 +1,74 @@
+#include "slipnav/core/ekf/adaptation/noise_scales.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/square.h"
+#include "simulation/random.h"
+
+namespace slipnav::test {
+namespace {
+
+/// Innovations that a learned noise explains but for `rest`, of a true standard deviation.
+void learn(NoiseScales& scales, NoiseKind kind, double true_std, double rest, int samples) {
+  sim::RandomStream random(1, "innovations");
+  for (int i = 0; i < samples; ++i) {
+    NoiseVector shares = NoiseVector::Zero();
+    shares(kind) = scales.factor(kind);  // configured: 1
+    const double r = std::sqrt(square(true_std) + rest) * random.normal();
+    scales.learn(shares, square(r), shares(kind) + rest);
+    scales.fade(0.08);
+  }
+}
+
+TEST(NoiseScales, LearnsUpAndDown) {
+  for (const double true_std : {0.1, 0.5, 3.0, 10.0}) {
+    NoiseScales scales({});
+    learn(scales, kLateralNoise, true_std, 0.0, 2000);
+    EXPECT_NEAR(std::sqrt(scales.factor(kLateralNoise)) / true_std, 1.0, 0.25) << true_std;
+    EXPECT_EQ(scales.factor(kVerticalNoise), 1.0);
+  }
+}
+
+/// No news is not good news: what is measured is all somebody else's noise.
+TEST(NoiseScales, WhatCannotBeSeenStays) {
+  NoiseScales scales({});
+  learn(scales, kFastSlipNoise, 0.0, 1e4, 2000);
+  EXPECT_NEAR(scales.factor(kFastSlipNoise), 1.0, 0.1);
+}
+
+TEST(NoiseScales, OneOutlierDoesNotTurnARoadIntoSand) {
+  NoiseScales scales({});
+  learn(scales, kFastSlipNoise, 0.1, 0.0, 2000);
+  const double before = scales.factor(kFastSlipNoise);
+  NoiseVector shares = NoiseVector::Zero();
+  shares(kFastSlipNoise) = before;
+  scales.learn(shares, 1e6, before);
+  EXPECT_LT(scales.factor(kFastSlipNoise), 2.0 * before);
+}
+
+TEST(NoiseScales, ForgetsOverTheWay) {
+  NoiseScales scales({});
+  learn(scales, kFastSlipNoise, 0.1, 0.0, 500);
+  ASSERT_LT(scales.factor(kFastSlipNoise), 0.1);
+  scales.fade(2000.0);
+  EXPECT_NEAR(scales.factor(kFastSlipNoise), 1.0, 1e-3);
+}
+
+TEST(NoiseScales, ShakingIsNeverMoreThanWhite) {
+  NoiseScales scales({});
+  learn(scales, kVibrationNoise, 10.0, 0.0, 500);
+  EXPECT_LE(scales.factor(kVibrationNoise), 1.0);
+}
+
+TEST(NoiseScales, WhatIsNotFiniteChangesNothing) {
+  NoiseScales scales({});
+  NoiseVector shares = NoiseVector::Constant(1.0);
+  scales.learn(shares, std::nan(""), 7.0);
+  scales.learn(shares, 1.0, 0.0);
+  EXPECT_EQ(scales.factor(kWheelNoise), 1.0);
+}
+
+}  // namespace
+}  // namespace slipnav::test

@@ -1,0 +1,127 @@
+/// Satellite positions while driving.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "evaluation/simulated_run.h"
+#include "recorded_drive.h"
+
+namespace slipnav::test {
+namespace {
+
+TEST(RepeatedFixFactor, IsOneForIndependentErrorsAndGrowsWithTheirLikeness) {
+  EXPECT_EQ(repeatedFixFactor(0.1, 0.0), 1.0);
+  EXPECT_NEAR(repeatedFixFactor(100.0, 1.0), 1.0, 1e-9);
+  EXPECT_NEAR(repeatedFixFactor(0.1, 10.0), 200.0, 0.1);
+  const double persistence = std::exp(-0.3);
+  EXPECT_NEAR(repeatedFixFactor(0.3, 1.0), (1.0 + persistence) / (1.0 - persistence), 1e-9);
+}
+
+/// A drive of some meters, and fixes of its receiver that are exact but for what the simulator adds.
+class Fixes : public ::testing::Test {
+ protected:
+  static constexpr double kNoise_m = 0.05;
+
+  void SetUp() override {
+    config_.simulator.gps.horizontal_noise_m = kNoise_m;
+    config_.simulator.gps.vertical_noise_m = kNoise_m;
+    drive_ = recordDrive(config_);
+    NeverStop policy;
+    simulateDrive(config_.simulator, Planet::byName(config_.planet), policy,
+                  [this](const sim::Measurements& m, const sim::TruthState& truth) {
+                    if (m.gps) {
+                      fixes_.push_back(toPositionFix(*m.gps));
+                    }
+                    last_truth_ = truth;
+                  });
+  }
+
+  /// @param late_s how long after the IMU sample of its time each fix comes
+  EstimateLog run(const std::string& use, const std::vector<PositionFix>& fixes, double late_s = 0.0) {
+    config_.gnss.use = use;
+    const NavigationSetup setup = config_.navigation();
+    Navigator navigator(Planet::byName(config_.planet), setup.imu_input, setup.filter);
+    EstimateLog log;
+    const auto sink = [&log](const Estimate& estimate, const ErrorCovariance& P) { log.push_back({estimate, P}); };
+    navigator.initialise(drive_.initial);
+    std::size_t next = 0;
+    refused_ = 0;
+    for (const DriveSample& sample : drive_.samples) {
+      for (; next < fixes.size() && fixes[next].stamp + fromSeconds(late_s) <= sample.stamp(); ++next) {
+        refused_ += navigator.push(AntennaFix(fixes[next])) ? 0 : 1;
+      }
+      sample.is_imu ? void(navigator.push(sample.imu, sink)) : void(navigator.push(sample.wheels, sink));
+    }
+    for (; next < fixes.size(); ++next) {
+      refused_ += navigator.push(AntennaFix(fixes[next])) ? 0 : 1;
+    }
+    navigator.completeUpTo(drive_.samples.back().stamp(), sink);
+    return log;
+  }
+
+  double finalError_m(const EstimateLog& log) const {
+    const Planet planet = Planet::byName(config_.planet);
+    const NavigationState truth = toNavState(last_truth_, planet, config_.imu.mount.position_b());
+    return positionDifference(planet, log.back().estimate.nav.position, truth.position).head<2>().norm();
+  }
+
+  static double finalSigma_m(const EstimateLog& log) { return std::sqrt(log.back().P(kPosition, kPosition)); }
+
+  Config config_ = driveConfig(30.0);
+  RecordedDrive drive_;
+  std::vector<PositionFix> fixes_;
+  sim::TruthState last_truth_;
+  int refused_ = 0;
+};
+
+TEST_F(Fixes, AreOfNoEffectUnlessAskedFor) {
+  const EstimateLog without = run("start", {});
+  EXPECT_TRUE(sameEstimates(without, run("always", {}))) << "without fixes the same bits";
+  EXPECT_FALSE(sameEstimates(without, run("always", fixes_)));
+}
+
+TEST_F(Fixes, BoundTheErrorAsTheyDeserve) {
+  config_.gnss.correlation_s = 0.0;
+  const EstimateLog log = run("always", fixes_);
+  EXPECT_LT(finalSigma_m(log), 0.3 * kNoise_m);
+  EXPECT_LT(finalError_m(log), 5.0 * finalSigma_m(log));
+  config_.gnss.correlation_s = 10.0;
+  const EstimateLog careful = run("always", fixes_);
+  EXPECT_GT(finalSigma_m(careful), 1.5 * finalSigma_m(log))
+      << "many that share an error are worth little more than one";
+}
+
+TEST_F(Fixes, ThatComeLateGiveTheSameBits) {
+  const EstimateLog prompt = run("always", fixes_);
+  const EstimateLog late = run("always", fixes_, 0.8 * config_.gnss.max_wait_s);
+  EXPECT_EQ(refused_, 0);
+  EXPECT_TRUE(sameEstimates(prompt, late));
+}
+
+TEST_F(Fixes, ThatComeTooLateAreLeftOut) {
+  const EstimateLog log = run("always", fixes_, config_.gnss.max_wait_s + 0.5);
+  EXPECT_GT(refused_, static_cast<int>(fixes_.size()) / 2);
+  EXPECT_EQ(log.size(), run("start", {}).size()) << "nothing waits for ever";
+}
+
+TEST_F(Fixes, ThatStandOffHaveNoEffect) {
+  std::vector<PositionFix> with_outliers;
+  std::vector<PositionFix> without;
+  for (std::size_t i = 0; i < fixes_.size(); ++i) {
+    PositionFix fix = fixes_[i];
+    const bool outlier = i % 5 == 4;
+    fix.position.latitude_rad += outlier ? 30.0 / 6.4e6 : 0.0;
+    with_outliers.push_back(fix);
+    if (!outlier) {
+      without.push_back(fix);
+    }
+  }
+  config_.gnss.correlation_s = 0.0;
+  const EstimateLog log = run("always", with_outliers);
+  EXPECT_LT(std::abs(finalError_m(log) - finalError_m(run("always", without))), 1e-3);
+}
+
+}  // namespace
+}  // namespace slipnav::test

@@ -1,0 +1,97 @@
+/// An operator puts the estimate to another place while the filter runs.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "recorded_drive.h"
+#include "slipnav/core/base/rotation.h"
+#include "slipnav/core/ekf/engine/filter_engine.h"
+
+namespace slipnav::test {
+namespace {
+
+class PlacementTest : public ::testing::Test {
+ protected:
+  PlacementTest() { filter_.initialise(drive_.initial); }
+
+  /// Mechanises and filters the first seconds of the drive.
+  void run(double until_s) {
+    InsEngine ins(Planet::byName("earth"), setup_.imu_input);
+    ins.initialise(drive_.initial.nav);
+    for (const DriveSample& sample : drive_.samples) {
+      if (sample.is_imu && toSeconds(sample.stamp() - drive_.initial.nav.stamp) < until_s) {
+        ins.push(sample.imu);
+      }
+    }
+    while (const std::optional<InsStep> step = ins.step()) {
+      filter_.push(*step);
+    }
+    filter_.advance([](const Estimate&, const ErrorCovariance&) {});
+  }
+
+  Placement placement() const {
+    Placement placement;
+    placement.position = filter_.state().position;
+    placement.position.height_m += 5.0;
+    placement.position_std_m = 0.5;
+    return placement;
+  }
+
+  static Config config() {
+    Config config = driveConfig(2.0);
+    config.filter.updates = {};
+    return config;
+  }
+
+  const RecordedDrive drive_ = recordDrive(config());
+  const NavigationSetup setup_ = config().navigation();
+  FilterEngine filter_{Planet::byName("earth"), setup_.filter};
+};
+
+TEST_F(PlacementTest, ThePositionIsTakenOver) {
+  run(8.0);
+  const NavigationState before = filter_.state();
+  const Correction correction = filter_.place(placement());
+  EXPECT_EQ(correction.state.position.height_m, before.position.height_m + 5.0);
+  EXPECT_EQ(correction.state.stamp, before.stamp);
+  EXPECT_EQ(correction.state.q_b_to_n.coeffs(), before.q_b_to_n.coeffs());
+  EXPECT_EQ(correction.epoch, 1U);
+  EXPECT_DOUBLE_EQ(filter_.covariance()(kPosition + 1, kPosition + 1), 0.25);
+  EXPECT_EQ(filter_.covariance()(kPosition, kVelocity), 0.0);
+}
+
+TEST_F(PlacementTest, AHeadingTurnsTheVelocityToo) {
+  run(8.0);
+  const NavigationState before = filter_.state();
+  ASSERT_GT(before.v_eb_n.norm(), 0.1);
+  Placement turned = placement();
+  turned.heading_rad = 1.0;
+  turned.heading_std_rad = 0.1;
+  const NavigationState after = filter_.place(turned).state;
+  EXPECT_NEAR(eulerFrom_q_b_to_n(after.q_b_to_n).z(), 1.0, 1e-12);
+  EXPECT_NEAR(eulerFrom_q_b_to_n(after.q_b_to_n).x(), eulerFrom_q_b_to_n(before.q_b_to_n).x(), 1e-12);
+  const Vector3 before_b = before.q_b_to_n.conjugate() * before.v_eb_n;
+  const Vector3 after_b = after.q_b_to_n.conjugate() * after.v_eb_n;
+  EXPECT_LT((after_b - before_b).norm(), 1e-12);
+  EXPECT_DOUBLE_EQ(filter_.covariance()(kAttitude + 2, kAttitude + 2), 0.01);
+}
+
+TEST_F(PlacementTest, ImpossibleOnesAreRefused) {
+  EXPECT_THROW(filter_.place(placement()), std::invalid_argument);  // nothing processed so far
+  run(8.0);
+  Placement wrong = placement();
+  wrong.position.latitude_rad = std::nan("");
+  EXPECT_THROW(filter_.place(wrong), std::invalid_argument);
+  wrong = placement();
+  wrong.position_std_m = 0.0;
+  EXPECT_THROW(filter_.place(wrong), std::invalid_argument);
+  wrong = placement();
+  wrong.heading_rad = 0.0;
+  EXPECT_THROW(filter_.place(wrong), std::invalid_argument);
+  EXPECT_NO_THROW(filter_.place(placement()));
+}
+
+}  // namespace
+}  // namespace slipnav::test

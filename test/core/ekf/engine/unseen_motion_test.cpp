@@ -1,0 +1,100 @@
+#include "slipnav/core/ekf/engine/unseen_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slipnav/core/base/rotation.h"
+
+namespace slipnav {
+namespace {
+
+class UnseenMotionTest : public ::testing::Test {
+ protected:
+  UnseenMotionTest() {
+    params_.gap_rate_std_deg_per_s = 2.0;
+    params_.gap_accel_std_mps2 = 0.5;
+    params_.gap_max_tilt_deg = 3.0;
+    state_.stamp = 1'000'000'000;
+  }
+
+  double sigma(int index) const { return std::sqrt(P_(index, index)); }
+
+  FilterParams params_;
+  NavigationState state_;
+  ErrorCovariance P_ = ErrorCovariance::Zero();
+};
+
+TEST_F(UnseenMotionTest, AddsWhatMayHaveHappened) {
+  UnseenMotion unseen(params_);
+  unseen.begin(state_, 1.0, P_);
+  EXPECT_NEAR(sigma(kAttitude), degToRad(2.0), 1e-12);
+  EXPECT_NEAR(sigma(kAttitude + 2), degToRad(2.0), 1e-12);
+  EXPECT_NEAR(sigma(kVelocity), 0.5, 1e-12);
+  EXPECT_NEAR(sigma(kPosition), 0.25, 1e-12);
+}
+
+TEST_F(UnseenMotionTest, TheGroundLimitsTheTiltButNotTheHeading) {
+  UnseenMotion unseen(params_);
+  unseen.begin(state_, 5.0, P_);
+  EXPECT_NEAR(sigma(kAttitude + 1), degToRad(3.0), 1e-12);
+  EXPECT_NEAR(sigma(kAttitude + 2), degToRad(10.0), 1e-12);
+}
+
+TEST_F(UnseenMotionTest, SoonAfterAGapAContradictionCastsDoubtOnTiltAndVelocity) {
+  UnseenMotion unseen(params_);
+  unseen.begin(state_, 1.0, P_);
+  P_.setZero();
+  unseen.doubt(state_.stamp + fromSeconds(9.9), P_);
+  EXPECT_NEAR(sigma(kAttitude), degToRad(2.0), 1e-12);
+  EXPECT_NEAR(sigma(kVelocity + 2), 0.5, 1e-12);
+  EXPECT_EQ(sigma(kAttitude + 2), 0.0);
+  EXPECT_EQ(sigma(kPosition), 0.0);
+  P_.setZero();
+  unseen.doubt(state_.stamp + fromSeconds(19.0), P_);  // within the same time of the last doubt
+  EXPECT_FALSE(P_.isZero());
+  P_.setZero();
+  unseen.doubt(state_.stamp + fromSeconds(30.0), P_);
+  EXPECT_TRUE(P_.isZero());
+}
+
+TEST_F(UnseenMotionTest, AStandstillCastsDoubtUntilItHasBeenAgreedToForAWhile) {
+  UnseenMotion unseen(params_);
+  unseen.standstill(false, P_);
+  EXPECT_TRUE(P_.isZero());
+  unseen.begin(state_, 1.0, P_);
+  unseen.standstill(true, P_);
+  P_.setZero();
+  unseen.standstill(false, P_);
+  EXPECT_NEAR(sigma(kAttitude), degToRad(2.0), 1e-12);
+  EXPECT_NEAR(sigma(kVelocity), 0.5, 1e-12);
+  for (int i = 0; i < 10; ++i) {
+    unseen.standstill(true, P_);
+  }
+  P_.setZero();
+  unseen.standstill(false, P_);
+  unseen.doubt(state_.stamp, P_);
+  EXPECT_TRUE(P_.isZero());
+}
+
+TEST_F(UnseenMotionTest, WithoutAGapNothingIsDoubted) {
+  UnseenMotion unseen(params_);
+  unseen.doubt(state_.stamp, P_);
+  EXPECT_TRUE(P_.isZero());
+}
+
+TEST_F(UnseenMotionTest, WayAndTurnAreInDoubtWhenNothingNeedHaveMoved) {
+  NavigationState after = state_;
+  after.stamp += fromSeconds(2.0);
+  state_.v_eb_n = after.v_eb_n = Vector3(0.6, -0.8, 0.0);
+  after.q_b_to_n = q_b_to_n_fromEuler(0.0, 0.0, 0.1);
+  UnseenMotion::allowForStandstill(state_, after, P_);
+  EXPECT_NEAR(sigma(kPosition), 1.2, 1e-12);
+  EXPECT_NEAR(sigma(kPosition + 1), 1.6, 1e-12);
+  EXPECT_NEAR(P_(kPosition, kPosition + 1), -1.2 * 1.6, 1e-12);
+  EXPECT_NEAR(sigma(kAttitude + 2), 0.1, 1e-12);
+  EXPECT_EQ(sigma(kAttitude), 0.0);
+}
+
+}  // namespace
+}  // namespace slipnav

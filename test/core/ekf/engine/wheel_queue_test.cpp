@@ -1,0 +1,88 @@
+#include "slipnav/core/ekf/engine/wheel_queue.h"
+
+#include <gtest/gtest.h>
+
+namespace slipnav {
+namespace {
+
+constexpr Nanoseconds kMillisecond = 1'000'000;
+
+WheelMotion sample(Nanoseconds stamp_ms) {
+  WheelMotion wheels;
+  wheels.stamp = stamp_ms * kMillisecond;
+  return wheels;
+}
+
+/// Has taken regular samples of 100 ms up to 1000 ms.
+class WheelQueueTest : public ::testing::Test {
+ protected:
+  WheelQueueTest() {
+    queue_.start(0);
+    for (Nanoseconds stamp_ms = 100; stamp_ms <= 1000; stamp_ms += 100) {
+      push(stamp_ms);
+      queue_.take();
+    }
+  }
+
+  bool push(Nanoseconds stamp_ms, Nanoseconds processed_until_ms = 0) {
+    return queue_.push(sample(stamp_ms), processed_until_ms * kMillisecond);
+  }
+  Nanoseconds knownUntil_ms() const { return queue_.knownUntil() / kMillisecond; }
+
+  WheelQueue queue_{0.5};
+};
+
+TEST_F(WheelQueueTest, SamplesLeaveInTheOrderOfTheirStamps) {
+  for (const Nanoseconds stamp_ms : {1300, 1100, 1200}) {
+    EXPECT_TRUE(push(stamp_ms));
+  }
+  for (const Nanoseconds stamp_ms : {1100, 1200, 1300}) {
+    EXPECT_EQ(queue_.take().stamp, stamp_ms * kMillisecond);
+  }
+}
+
+TEST_F(WheelQueueTest, ARepeatedSampleAndOneOfThePastAreRefused) {
+  EXPECT_TRUE(push(1100));
+  EXPECT_FALSE(push(1100));
+  EXPECT_FALSE(push(1000));
+  EXPECT_FALSE(push(1150, 1160));
+  EXPECT_TRUE(push(1150, 1140));
+}
+
+TEST_F(WheelQueueTest, KnowledgeEndsAtAHole) {
+  push(1100);
+  push(1400);
+  EXPECT_EQ(knownUntil_ms(), 1100);
+  push(1200);
+  push(1300);
+  EXPECT_EQ(knownUntil_ms(), 1400);
+}
+
+TEST_F(WheelQueueTest, NoneIsDueSoonAfterTheLast) {
+  EXPECT_EQ(queue_.knownUntil(), 1090 * kMillisecond - 1);
+  push(1050);
+  EXPECT_FALSE(queue_.hasUpTo(1089 * kMillisecond));
+  EXPECT_TRUE(queue_.hasUpTo(1090 * kMillisecond));
+  EXPECT_EQ(queue_.take().stamp, 1090 * kMillisecond);
+}
+
+TEST_F(WheelQueueTest, WhatSomebodySaysIsCompleteIsKnown) {
+  queue_.assumeCompleteUpTo(2000 * kMillisecond);
+  EXPECT_EQ(knownUntil_ms(), 2000);
+  queue_.clear();
+  queue_.start(1000 * kMillisecond);
+  EXPECT_LE(knownUntil_ms(), 1000);
+}
+
+TEST(WheelQueue, AStartDropsWhatLiesBeforeAndTellsOfASampleOfItsOwnStamp) {
+  WheelQueue queue(0.5);
+  for (const Nanoseconds stamp_ms : {100, 200, 300}) {
+    EXPECT_TRUE(queue.push(sample(stamp_ms), 0));
+  }
+  EXPECT_FALSE(queue.start(150 * kMillisecond));
+  EXPECT_TRUE(queue.start(200 * kMillisecond));
+  EXPECT_EQ(queue.take().stamp, 300 * kMillisecond);
+}
+
+}  // namespace
+}  // namespace slipnav

@@ -1,0 +1,119 @@
+#include "slipnav/core/navigation/input_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace slipnav {
+namespace {
+
+constexpr double kGravity_mps2 = 9.81;
+
+/// 10 s of rest, then 10 s of driving in curves with 0.5 m/s, on ground that tilts by up to 4°.
+struct Drive {
+  double direction = 1.0;  ///< -1: backwards
+  double wheel_sign = 1.0;
+  bool unsigned_wheels = false;
+  std::function<void(ImuSample&)> damage = [](ImuSample&) {};
+
+  std::string complaint() const {
+    InputCheck check(kGravity_mps2, 0.0005);
+    std::string complaint;
+    for (int i = 1; i <= 2000; ++i) {
+      const double t_s = 0.01 * i;
+      const double driven_s = std::max(t_s - 10.0, 0.0);
+      const double tilt_rad = 0.07 * std::sin(1.5 * driven_s);
+      const bool accelerates = driven_s > 0.0 && driven_s <= 0.5;
+      const double yaw_rate = driven_s > 0.0 ? 0.3 : 0.0;
+      ImuSample imu;
+      imu.stamp = fromSeconds(t_s);
+      imu.f_ib_b = {direction * (accelerates ? 1.0 : 0.0) + kGravity_mps2 * std::sin(tilt_rad), 0.0,
+                    -kGravity_mps2 * std::cos(tilt_rad)};
+      imu.omega_ib_b = {0.0, driven_s > 0.0 ? 0.105 * std::cos(1.5 * driven_s) : 0.0, yaw_rate};
+      damage(imu);
+      check.push(imu);
+      if (i % 10 == 0) {
+        WheelMotion wheels;
+        wheels.stamp = imu.stamp;
+        const double speed = wheel_sign * direction * std::min(driven_s, 0.5);
+        wheels.motion = {unsigned_wheels ? std::abs(speed) : speed, yaw_rate, true};
+        wheels.largest_speed_mps = std::abs(speed);
+        check.push(wheels);
+      }
+      if (complaint.empty()) {
+        complaint = check.complaint();
+      }
+    }
+    return complaint;
+  }
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(InputCheck, findsNothingWrongWithAGoodDrive) {
+  EXPECT_EQ(Drive{}.complaint(), "");
+  Drive backwards;
+  backwards.direction = -1.0;
+  EXPECT_EQ(backwards.complaint(), "");
+}
+
+TEST(InputCheck, namesSpecificForceInG) {
+  Drive drive;
+  drive.damage = [](ImuSample& s) { s.f_ib_b /= 9.80665; };
+  EXPECT_TRUE(has(drive.complaint(), "the mean specific force is 1.00 where gravity is 9.81 m/s^2: in g?"))
+      << drive.complaint();
+}
+
+TEST(InputCheck, namesGravityTakenOut) {
+  Drive drive;
+  drive.damage = [](ImuSample& s) { s.f_ib_b.z() += kGravity_mps2; };
+  EXPECT_TRUE(has(drive.complaint(), "gravity taken out?")) << drive.complaint();
+}
+
+TEST(InputCheck, namesGravityUpsideDown) {
+  Drive drive;
+  drive.damage = [](ImuSample& s) { s.f_ib_b = -s.f_ib_b; };
+  EXPECT_TRUE(has(drive.complaint(), "does not point up")) << drive.complaint();
+}
+
+TEST(InputCheck, namesGyrosInDegreesPerSecond) {
+  Drive drive;
+  drive.damage = [](ImuSample& s) { s.omega_ib_b *= 180.0 / kPi; };
+  EXPECT_TRUE(has(drive.complaint(), "in deg/s?")) << drive.complaint();
+}
+
+TEST(InputCheck, namesGyrosThatTurnTheOtherWay) {
+  Drive drive;
+  drive.damage = [](ImuSample& s) { s.omega_ib_b.z() = -s.omega_ib_b.z(); };
+  EXPECT_TRUE(has(drive.complaint(), "opposite directions")) << drive.complaint();
+}
+
+TEST(InputCheck, namesWheelsWithoutSign) {
+  Drive drive;
+  drive.direction = -1.0;
+  drive.unsigned_wheels = true;
+  EXPECT_TRUE(has(drive.complaint(), "disagree on the direction: the wheels' speed has no sign")) << drive.complaint();
+  drive.direction = 1.0;
+  EXPECT_EQ(drive.complaint(), "");
+}
+
+TEST(InputCheck, namesWheelsWithTheWrongSign) {
+  Drive drive;
+  drive.wheel_sign = -1.0;
+  EXPECT_TRUE(has(drive.complaint(), "disagree on the direction: wheels[].sign")) << drive.complaint();
+}
+
+/// A bias of 5°/s and one of 60 mg are nothing of the kind.
+TEST(InputCheck, isNotMisledByBiases) {
+  Drive drive;
+  drive.damage = [](ImuSample& s) {
+    s.omega_ib_b += Vector3::Constant(degToRad(5.0));
+    s.f_ib_b += Vector3::Constant(0.6);
+  };
+  EXPECT_EQ(drive.complaint(), "");
+}
+
+}  // namespace
+}  // namespace slipnav

@@ -1,0 +1,651 @@
+#include "core/stopping/stop_supervisor.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace slipnav::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr Nanoseconds kInterval = 100'000'000;
+constexpr double kSpeed_mps = 0.8;
+
+VelocityCommand driveOn() { return {{kSpeed_mps, 0.0, 0.0}, {0.0, 0.0, 0.2}}; }
+
+bool equal(const VelocityCommand& a, const VelocityCommand& b) {
+  return a.linear_mps == b.linear_mps && a.angular_radps == b.angular_radps;
+}
+
+/// A supervisor and the stamps that it gets.
+class Rig {
+ public:
+  explicit Rig(const std::string& mode, double max_hold_s = 3.0) : supervisor(paramsOf(mode, max_hold_s)) {}
+
+  static StopParams paramsOf(const std::string& mode, double max_hold_s) {
+    StopParams params;
+    params.mode = mode;
+    params.max_hold_s = max_hold_s;
+    return params;
+  }
+
+  void moving() { observe(kSpeed_mps, 0.1, false, false); }
+  void standing(double speed_std_mps = 0.1) { observe(0.0, speed_std_mps, true, true); }
+  void wheelsStandOnly() { observe(0.1, 0.1, false, true); }
+
+  /// Observes for so long what `observation` does.
+  void during(double duration_s, const std::function<void()>& observation) {
+    for (Nanoseconds end = stamp + fromSeconds(duration_s); stamp < end;) {
+      observation();
+    }
+  }
+
+  void forecast(double time_to_stop_s) { supervisor.setForecast({stamp, time_to_stop_s}); }
+  StopState state() const { return supervisor.status().state; }
+  VelocityCommand drive() { return supervisor.command(driveOn()); }
+
+  StopSupervisor supervisor;
+  Nanoseconds stamp = fromSeconds(1000.0);
+
+ private:
+  void observe(double forward_mps, double speed_std_mps, bool stationary, bool wheels_at_rest) {
+    stamp += kInterval;
+    supervisor.observe({stamp, forward_mps, speed_std_mps, stationary, true, wheels_at_rest});
+  }
+};
+
+/// Every state that there is, with how to get there. Ten seconds have passed since the begin.
+struct Situation {
+  const char* name;
+  StopState state;
+  std::function<void(Rig&)> reach;
+};
+
+void driveTenSeconds(Rig& rig) {
+  for (int i = 0; i < 10; ++i) {
+    rig.during(1.0, [&rig] { rig.moving(); });
+    rig.forecast(kInfinity);
+    rig.drive();
+  }
+}
+
+std::vector<Situation> situations() {
+  return {{"no estimates so far", StopState::kDriving, [](Rig&) {}},
+          {"driving", StopState::kDriving, driveTenSeconds},
+          {"counting down", StopState::kCountingDown,
+           [](Rig& rig) {
+             driveTenSeconds(rig);
+             rig.forecast(6.0);
+           }},
+          {"stopping", StopState::kStopping,
+           [](Rig& rig) {
+             driveTenSeconds(rig);
+             rig.forecast(0.0);
+           }},
+          {"holding", StopState::kHolding, [](Rig& rig) {
+             driveTenSeconds(rig);
+             rig.forecast(0.0);
+             rig.during(2.0, [&rig] {
+               rig.moving();
+               rig.drive();
+             });
+             rig.standing();
+           }}};
+}
+
+/// Everything that can happen, and the state that follows from each situation in the order of situations().
+struct Event {
+  const char* name;
+  std::function<void(Rig&)> happen;
+  std::array<StopState, 5> active;
+  std::array<StopState, 5> advise;
+};
+
+constexpr StopState kD = StopState::kDriving;
+constexpr StopState kC = StopState::kCountingDown;
+constexpr StopState kS = StopState::kStopping;
+constexpr StopState kH = StopState::kHolding;
+
+std::vector<Event> events() {
+  return {
+      {"a moving estimate", [](Rig& r) { r.moving(); }, {kD, kD, kC, kS, kS}, {kD, kD, kC, kS, kD}},
+      {"a standing estimate", [](Rig& r) { r.standing(); }, {kD, kD, kC, kH, kH}, {kD, kD, kC, kH, kH}},
+      {"a converged standstill",
+       [](Rig& r) { r.during(1.0, [&r] { r.standing(1e-5); }); },
+       {kD, kD, kD, kD, kD},
+       {kD, kD, kD, kD, kD}},
+      {"a sliding rover",
+       [](Rig& r) { r.during(1.7, [&r] { r.wheelsStandOnly(); }); },
+       {kD, kD, kC, kD, kD},
+       {kD, kD, kC, kD, kD}},
+      {"an old estimate",
+       [](Rig& r) { r.supervisor.observe({r.stamp - 1}); },
+       {kD, kD, kC, kS, kH},
+       {kD, kD, kC, kS, kH}},
+      {"a clock that goes back",
+       [](Rig& r) {
+         r.stamp -= fromSeconds(500.0);
+         r.moving();
+       },
+       {kD, kD, kD, kD, kD},
+       {kD, kD, kD, kD, kD}},
+      {"a stop time that has come", [](Rig& r) { r.forecast(0.0); }, {kD, kS, kS, kS, kH}, {kD, kS, kS, kS, kH}},
+      {"a stop time to come", [](Rig& r) { r.forecast(6.0); }, {kD, kC, kC, kS, kH}, {kD, kC, kC, kS, kH}},
+      {"a stop time far away", [](Rig& r) { r.forecast(1e300); }, {kD, kD, kD, kS, kH}, {kD, kD, kD, kS, kH}},
+      {"a stop time that has passed",
+       [](Rig& r) { r.forecast(-kInfinity); },
+       {kD, kS, kS, kS, kH},
+       {kD, kS, kS, kS, kH}},
+      {"a stop time that is no number", [](Rig& r) { r.forecast(kNan); }, {kD, kD, kC, kS, kH}, {kD, kD, kC, kS, kH}},
+      {"a forecast ahead of the estimates",
+       [](Rig& r) {
+         r.supervisor.setForecast({r.stamp + 1, 0.0});
+       },
+       {kD, kD, kC, kS, kH},
+       {kD, kD, kC, kS, kH}},
+      {"an old forecast",
+       [](Rig& r) {
+         r.supervisor.setForecast({fromSeconds(1000.0), 0.0});
+       },
+       {kD, kD, kC, kS, kH},
+       {kD, kD, kC, kS, kH}},
+      {"silence of the forecasts",
+       [](Rig& r) { r.during(5.1, [&r] { r.moving(); }); },
+       {kD, kS, kS, kS, kD},  // after ten seconds of driving, the periodic stop has come; the stop under way goes on
+       {kD, kS, kS, kS, kD}},
+      {"silence of the estimates",
+       [](Rig& r) { r.supervisor.loseEstimates(); },
+       {kD, kD, kD, kS, kD},  // a stop that is under way goes on
+       {kD, kD, kD, kD, kD}},
+      {"the operator's wish for a stop",
+       [](Rig& r) { r.supervisor.stopNow(); },
+       {kD, kS, kS, kS, kH},
+       {kD, kS, kS, kS, kH}},
+      {"the operator's override",
+       [](Rig& r) { r.supervisor.setOverride(true); },
+       {kD, kD, kD, kD, kD},
+       {kD, kD, kD, kD, kD}},
+      {"an emergency stop",
+       [](Rig& r) { r.supervisor.setEmergencyStop(true); },
+       {kD, kD, kD, kD, kD},
+       {kD, kD, kD, kD, kD}},
+      {"the end of an override",
+       [](Rig& r) { r.supervisor.setOverride(false); },
+       {kD, kD, kC, kS, kH},
+       {kD, kD, kC, kS, kH}},
+      {"a command to drive", [](Rig& r) { r.drive(); }, {kD, kD, kC, kS, kH}, {kD, kD, kC, kS, kH}},
+      {"the operator's stop", [](Rig& r) { r.supervisor.command({}); }, {kD, kD, kC, kS, kH}, {kD, kD, kC, kS, kH}},
+      {"a command that is not finite",
+       [](Rig& r) {
+         r.supervisor.command({{kNan, 0.0, 0.0}, {}});
+       },
+       {kD, kD, kC, kS, kH},
+       {kD, kD, kC, kS, kH}},
+      {"time without standstill",
+       [](Rig& r) {
+         r.during(7.0, [&r] {
+           r.moving();
+           r.forecast(kInfinity);
+         });
+       },
+       {kD, kD, kD, kD, kD},
+       {kD, kD, kD, kS, kD}},
+      {"time at standstill",
+       [](Rig& r) { r.during(3.1, [&r] { r.standing(); }); },
+       {kD, kD, kC, kD, kD},
+       {kD, kD, kC, kD, kD}},
+  };
+}
+
+/// What holds in every state: nothing is asked of the rover that the operator does not ask for.
+void expectHarmless(Rig& rig, const std::string& trace) {
+  SCOPED_TRACE(trace);
+  const VelocityCommand out = rig.drive();
+  EXPECT_GE(out.linear_mps.x(), 0.0);
+  EXPECT_LE(out.linear_mps.x(), kSpeed_mps);
+  EXPECT_GE(out.angular_radps.z(), 0.0);
+  EXPECT_LE(out.angular_radps.z(), 0.2);
+  EXPECT_TRUE(rig.supervisor.command({}).isZero()) << "the operator's stop passes at once";
+  EXPECT_TRUE(rig.supervisor.command({{kInfinity, 0.0, 0.0}, {}}).isZero());
+  EXPECT_FALSE(rig.supervisor.status().reason.empty());
+}
+
+TEST(StopSupervisor, EveryEventInEveryState) {
+  const std::vector<Situation> all = situations();
+  for (const std::string& mode : {std::string("active"), std::string("advise"), std::string("off")}) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      for (const Event& event : events()) {
+        const std::string trace = mode + ": " + event.name + " when " + all[i].name;
+        Rig rig(mode);
+        all[i].reach(rig);
+        ASSERT_EQ(rig.state(), mode == "off" ? kD : all[i].state) << trace;
+        event.happen(rig);
+        EXPECT_EQ(rig.state(), mode == "off" ? kD : mode == "active" ? event.active[i] : event.advise[i]) << trace;
+        expectHarmless(rig, trace);
+      }
+    }
+  }
+}
+
+TEST(StopSupervisor, CommandsPassUntouchedUnlessItStopsTheRover) {
+  for (const std::string& mode : {std::string("active"), std::string("advise"), std::string("off")}) {
+    for (const Situation& situation : situations()) {
+      Rig rig(mode);
+      situation.reach(rig);
+      const bool stops = mode == "active" && rig.state() >= kS;
+      rig.moving();
+      EXPECT_EQ(equal(rig.drive(), driveOn()), !stops) << mode << ": " << situation.name;
+    }
+  }
+}
+
+TEST(StopSupervisor, TheOperatorsRulesHoldInEveryState) {
+  for (const Situation& situation : situations()) {
+    Rig rig("active");
+    situation.reach(rig);
+    rig.supervisor.setOverride(true);
+    EXPECT_TRUE(equal(rig.drive(), driveOn())) << situation.name;
+    rig.supervisor.setEmergencyStop(true);
+    EXPECT_TRUE(rig.drive().isZero()) << situation.name;
+    rig.supervisor.setOverride(false);
+    rig.during(20.0, [&rig] { rig.moving(); });
+    EXPECT_TRUE(rig.drive().isZero()) << situation.name;
+    rig.supervisor.setEmergencyStop(false);
+    rig.supervisor.setOverride(true);
+    EXPECT_TRUE(equal(rig.drive(), driveOn())) << situation.name;
+  }
+}
+
+TEST(StopSupervisor, SlowsDownAlongTheArcWithinItsLimit) {
+  Rig rig("active");
+  situations()[3].reach(rig);
+  double before_mps = kSpeed_mps;
+  int steps = 0;
+  for (; before_mps > 0.0 && steps < 100; ++steps) {
+    rig.moving();
+    const VelocityCommand out = rig.drive();
+    EXPECT_NEAR(before_mps - out.linear_mps.x(), std::min(before_mps, 0.05), 1e-9);
+    EXPECT_NEAR(out.angular_radps.z(), 0.25 * out.linear_mps.x(), 1e-9);
+    before_mps = out.linear_mps.x();
+  }
+  EXPECT_EQ(steps, 16);  // 0.8 m/s by 0.5 m/s²
+}
+
+TEST(StopSupervisor, AStopThatTheOperatorEndsAtOnceStaysEnded) {
+  Rig rig("active");
+  situations()[3].reach(rig);
+  rig.moving();
+  EXPECT_FALSE(rig.drive().isZero());
+  EXPECT_TRUE(rig.supervisor.command({}).isZero());
+  EXPECT_TRUE(rig.drive().isZero());
+}
+
+TEST(StopSupervisor, ARoverThatStandsIsNotSetInMotionByAStop) {
+  Rig rig("active");
+  driveTenSeconds(rig);
+  rig.supervisor.command({});
+  rig.forecast(0.0);
+  ASSERT_EQ(rig.state(), kS);
+  EXPECT_TRUE(rig.drive().linear_mps.isZero());
+}
+
+TEST(StopSupervisor, StopsInTimeToStandWhenTheThresholdIsReached) {
+  Rig rig("active");
+  driveTenSeconds(rig);
+  rig.forecast(4.0);
+  EXPECT_NEAR(rig.supervisor.status().time_left_s, 4.0 - kSpeed_mps / 0.5, 1e-6);
+  rig.during(2.3, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kC);
+  rig.moving();
+  EXPECT_EQ(rig.state(), kS);
+  EXPECT_EQ(rig.supervisor.status().reason, "the position error comes to its threshold");
+}
+
+TEST(StopSupervisor, ANewForecastMovesTheCountdown) {
+  Rig rig("active");
+  driveTenSeconds(rig);
+  rig.forecast(5.0);
+  rig.moving();
+  rig.forecast(9.0);
+  EXPECT_NEAR(rig.supervisor.status().time_left_s, 9.0 - kSpeed_mps / 0.5, 1e-6);
+  rig.forecast(kInfinity);
+  EXPECT_EQ(rig.supervisor.status().time_left_s, kInfinity);
+}
+
+TEST(StopSupervisor, AHoldEndsWithConvergence) {
+  Rig rig("active");
+  situations()[4].reach(rig);
+  rig.during(0.6, [&rig] { rig.standing(1e-5); });
+  EXPECT_EQ(rig.state(), kH) << "a velocity that is known from few updates may be so by chance";
+  rig.standing(1e-5);
+  EXPECT_EQ(rig.state(), kD);
+  EXPECT_EQ(rig.supervisor.status().reason, "the velocity has converged after 0.7 s");
+  EXPECT_EQ(rig.supervisor.status().stops, 1U);
+  EXPECT_TRUE(rig.drive().isZero());
+}
+
+TEST(StopSupervisor, AfterAHoldTheCommandComesBackByARamp) {
+  Rig rig("active");
+  situations()[4].reach(rig);
+  rig.during(0.7, [&rig] { rig.standing(1e-5); });
+  ASSERT_EQ(rig.state(), kD);
+  double before_mps = rig.drive().linear_mps.x();
+  EXPECT_EQ(before_mps, 0.0);
+  int steps = 0;
+  for (; before_mps < kSpeed_mps && steps < 100; ++steps) {
+    rig.moving();
+    const VelocityCommand out = rig.drive();
+    EXPECT_NEAR(out.linear_mps.x() - before_mps, 0.05, 1e-9);
+    EXPECT_NEAR(out.angular_radps.z(), 0.25 * out.linear_mps.x(), 1e-9);
+    before_mps = out.linear_mps.x();
+  }
+  EXPECT_EQ(steps, 16);  // 0.8 m/s by 0.5 m/s²
+  rig.moving();
+  EXPECT_TRUE(equal(rig.drive(), driveOn()));
+}
+
+TEST(StopSupervisor, TheRampEndsWithAStopOfTheOperatorsOwn) {
+  Rig rig("active");
+  situations()[4].reach(rig);
+  rig.during(0.7, [&rig] { rig.standing(1e-5); });
+  EXPECT_TRUE(rig.drive().isZero());
+  EXPECT_TRUE(rig.supervisor.command({}).isZero());
+  EXPECT_TRUE(equal(rig.drive(), driveOn()));
+}
+
+TEST(StopSupervisor, AStopGoesOnWithoutEstimatesAndWithinItsLimit) {
+  Rig rig("active");
+  situations()[3].reach(rig);
+  rig.during(0.5, [&rig] { rig.moving(); });
+  const double before_mps = rig.drive().linear_mps.x();
+  rig.supervisor.loseEstimates();
+  rig.supervisor.passTime(fromSeconds(0.5));
+  EXPECT_NEAR(rig.drive().linear_mps.x(), before_mps - 0.25, 1e-9);
+  rig.supervisor.passTime(fromSeconds(2.0));
+  EXPECT_TRUE(rig.drive().isZero());
+  rig.supervisor.passTime(fromSeconds(2.9));
+  EXPECT_EQ(rig.state(), kS);
+  rig.supervisor.passTime(fromSeconds(0.2));
+  EXPECT_EQ(rig.state(), kD);
+  EXPECT_EQ(rig.supervisor.status().reason, "no estimates");
+  rig.supervisor.passTime(fromSeconds(1.0));
+  rig.drive();
+  rig.supervisor.passTime(fromSeconds(0.8));
+  EXPECT_NEAR(rig.drive().linear_mps.x(), 0.4, 0.41) << "by a ramp";
+  rig.supervisor.passTime(fromSeconds(2.0));
+  EXPECT_TRUE(equal(rig.drive(), driveOn()));
+}
+
+TEST(StopSupervisor, TimeThatPassedWithoutEstimatesCountsWhenTheyComeBack) {
+  Rig rig("active");
+  situations()[3].reach(rig);
+  rig.supervisor.loseEstimates();
+  rig.supervisor.passTime(fromSeconds(4.0));
+  rig.during(1.9, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kS);
+  rig.during(0.2, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kD) << "6 s after it began";
+}
+
+TEST(StopSupervisor, WhatTheOperatorHasSaidSurvivesARestartAndAnyChange) {
+  for (const std::string& mode : {std::string("active"), std::string("advise"), std::string("off")}) {
+    Rig rig(mode);
+    rig.supervisor.restore({true, true});
+    EXPECT_TRUE(rig.drive().isZero()) << "the first command";
+    EXPECT_EQ(rig.supervisor.countdown_s(), 0.0);
+    rig.during(20.0, [&rig] { rig.moving(); });
+    rig.supervisor.loseEstimates();
+    for (const std::string& other : {std::string("off"), std::string("active"), std::string("advise")}) {
+      rig.supervisor.retune(Rig::paramsOf(other, 3.0));
+      EXPECT_TRUE(rig.drive().isZero());
+      EXPECT_TRUE(rig.supervisor.latch().emergency_stop);
+      EXPECT_TRUE(rig.supervisor.latch().overridden);
+    }
+  }
+}
+
+TEST(StopSupervisor, AnEmergencyStopEndsWithARampInEveryMode) {
+  for (const std::string& mode : {std::string("active"), std::string("advise"), std::string("off")}) {
+    Rig rig(mode);
+    driveTenSeconds(rig);
+    rig.supervisor.setEmergencyStop(true);
+    EXPECT_TRUE(rig.drive().isZero());
+    rig.supervisor.setEmergencyStop(false);
+    EXPECT_TRUE(rig.drive().isZero());
+    rig.moving();
+    EXPECT_NEAR(rig.drive().linear_mps.x(), 0.05, 1e-9) << mode;
+  }
+}
+
+TEST(StopSupervisor, TheCountdownIsAlwaysFinite) {
+  Rig rig("advise");
+  EXPECT_FALSE(rig.supervisor.countdown_s().has_value()) << "nothing is known";
+  driveTenSeconds(rig);
+  EXPECT_EQ(rig.supervisor.countdown_s(), 60.0) << "no stop is due";
+  rig.forecast(6.0);
+  EXPECT_NEAR(*rig.supervisor.countdown_s(), 6.0 - kSpeed_mps / 0.5, 1e-6);
+  rig.forecast(0.0);
+  EXPECT_EQ(rig.supervisor.countdown_s(), 0.0);
+  rig.supervisor.setOverride(true);
+  EXPECT_EQ(rig.supervisor.countdown_s(), 60.0) << "whoever counts must not stop the rover";
+  rig.supervisor.setEmergencyStop(true);
+  EXPECT_EQ(rig.supervisor.countdown_s(), 0.0);
+  rig.supervisor.retune(Rig::paramsOf("off", 3.0));
+  EXPECT_EQ(rig.supervisor.countdown_s(), 0.0) << "in every mode";
+  rig.supervisor.setEmergencyStop(false);
+  EXPECT_FALSE(rig.supervisor.countdown_s().has_value());
+}
+
+TEST(StopSupervisor, OnlyWheelSamplesBringZeroUpdates) {
+  Rig rig("active");
+  situations()[4].reach(rig);
+  for (int i = 0; i < 20; ++i) {
+    rig.stamp += kInterval / 10;
+    rig.supervisor.observe({rig.stamp, 0.0, 1e-5, true, false, true});
+  }
+  EXPECT_EQ(rig.state(), kH);
+}
+
+TEST(StopSupervisor, AHoldEndsAtItsLimit) {
+  for (const double limit_s : {0.5, 3.0}) {
+    Rig rig("active", limit_s);
+    situations()[4].reach(rig);
+    EXPECT_NEAR(rig.supervisor.status().time_left_s, limit_s, 1e-9);
+    rig.during(limit_s - 0.1, [&rig] { rig.standing(); });
+    EXPECT_EQ(rig.state(), kH);
+    EXPECT_TRUE(rig.drive().isZero());
+    rig.standing();
+    EXPECT_EQ(rig.state(), kD);
+    rig.drive();
+    rig.moving();
+    EXPECT_GT(rig.drive().linear_mps.x(), 0.0);
+  }
+}
+
+TEST(StopSupervisor, AfterAStopTheOldForecastIsVoidAndThereIsTimeToDrive) {
+  Rig rig("active");
+  situations()[4].reach(rig);
+  rig.during(1.0, [&rig] { rig.standing(1e-5); });
+  EXPECT_EQ(rig.supervisor.status().reason, "no forecast since the last stop");
+  rig.forecast(0.0);  // the threshold is below what one metre costs
+  EXPECT_EQ(rig.state(), kC);
+  rig.during(4.6, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kC);
+  rig.during(0.2, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kS);
+}
+
+TEST(StopSupervisor, StaleForecastsMakeStopsPeriodic) {
+  Rig rig("active");
+  rig.during(5.0, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.supervisor.status().reason, "no forecast since the last stop");
+  rig.during(0.2, [&rig] { rig.moving(); });
+  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
+  EXPECT_EQ(rig.supervisor.status().reason, "no new forecast: periodic stop");
+  EXPECT_EQ(rig.state(), kC);
+  rig.during(5.0, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kC);
+  rig.during(0.4, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kS) << "12 s less the time to slow down";
+  rig.during(1.0, [&rig] { rig.standing(1e-5); });
+  rig.forecast(kInfinity);
+  EXPECT_FALSE(rig.supervisor.status().forecasts_stale);
+  EXPECT_EQ(rig.state(), kD);
+}
+
+TEST(StopSupervisor, AStandstillOfTheOperatorsOwnCountsForThePeriod) {
+  Rig rig("active");
+  rig.during(9.0, [&rig] { rig.moving(); });
+  rig.during(30.0, [&rig] { rig.standing(1e-5); });
+  EXPECT_EQ(rig.state(), kD);
+  EXPECT_EQ(rig.supervisor.status().stops, 0U);
+  rig.during(10.0, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kC);
+}
+
+TEST(StopSupervisor, ASlidingRoverIsNotHeld) {
+  Rig rig("active");
+  situations()[3].reach(rig);
+  rig.during(1.5, [&rig] { rig.wheelsStandOnly(); });
+  EXPECT_EQ(rig.state(), kS);
+  rig.wheelsStandOnly();
+  EXPECT_EQ(rig.state(), kD);
+  EXPECT_EQ(rig.supervisor.status().refusals, 1U);
+  EXPECT_EQ(rig.supervisor.status().stops, 0U);
+  rig.moving();
+  rig.forecast(0.0);
+  EXPECT_EQ(rig.supervisor.status().reason,
+            "the rover slides: its wheels stand, but it does not; next stop not before 30.0 s");
+  EXPECT_GT(rig.drive().linear_mps.x(), 0.0);
+  rig.during(28.0, [&rig] {
+    rig.moving();
+    rig.forecast(0.0);
+  });
+  EXPECT_EQ(rig.state(), kC);
+  rig.during(2.5, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kS);
+}
+
+TEST(StopSupervisor, ARoverThatDoesNotComeToRestIsReleased) {
+  Rig rig("active");
+  situations()[3].reach(rig);
+  rig.during(5.9, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kS);
+  rig.moving();
+  EXPECT_EQ(rig.state(), kD);
+  EXPECT_EQ(rig.supervisor.status().reason, "the rover does not come to rest within 6.0 s");
+  rig.drive();
+  rig.moving();
+  EXPECT_GT(rig.drive().linear_mps.x(), 0.0);
+}
+
+TEST(StopSupervisor, AdviceStandsUntilItIsFollowed) {
+  Rig rig("advise");
+  situations()[3].reach(rig);
+  rig.during(60.0, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kS);
+  EXPECT_EQ(rig.supervisor.status().time_left_s, 0.0);
+  rig.standing();
+  EXPECT_EQ(rig.state(), kH);
+  rig.moving();
+  EXPECT_EQ(rig.supervisor.status().reason, "driven on before the velocity had converged");
+}
+
+TEST(StopSupervisor, OtherTimesHoldFromTheNextEstimateOn) {
+  Rig rig("active");
+  driveTenSeconds(rig);
+  rig.forecast(6.0);
+  ASSERT_EQ(rig.state(), kC);
+  StopParams params = Rig::paramsOf("active", 3.0);
+  params.countdown_s = 1.0;
+  rig.supervisor.retune(params);
+  EXPECT_EQ(rig.state(), kC);
+  rig.moving();
+  EXPECT_EQ(rig.state(), kD);
+}
+
+TEST(StopSupervisor, AnotherDecelerationHoldsInTheStopThatIsUnderWay) {
+  Rig rig("active");
+  situations()[3].reach(rig);
+  StopParams params = Rig::paramsOf("active", 3.0);
+  params.deceleration_mps2 = 1.0;
+  rig.supervisor.retune(params);
+  rig.drive();
+  rig.moving();
+  EXPECT_NEAR(rig.drive().linear_mps.x(), kSpeed_mps - 1.0 * toSeconds(kInterval), 1e-9);
+}
+
+TEST(StopSupervisor, AnotherModeEndsAStopAndHoldsAtOnce) {
+  for (const Situation& situation : situations()) {
+    Rig rig("active");
+    situation.reach(rig);
+    rig.supervisor.retune(Rig::paramsOf("advise", 3.0));
+    EXPECT_EQ(rig.supervisor.mode(), StopMode::kAdvise);
+    EXPECT_LT(rig.state(), kS) << situation.name;
+    EXPECT_TRUE(equal(rig.drive(), driveOn())) << situation.name;
+    rig.supervisor.retune(Rig::paramsOf("off", 3.0));
+    EXPECT_EQ(rig.supervisor.status().reason, "the supervisor is off") << situation.name;
+    EXPECT_TRUE(equal(rig.drive(), driveOn())) << situation.name;
+  }
+}
+
+TEST(StopSupervisor, OneThatBecomesActiveStopsTheRover) {
+  Rig rig("off");
+  driveTenSeconds(rig);
+  rig.forecast(0.0);
+  ASSERT_EQ(rig.state(), kD);
+  rig.supervisor.retune(Rig::paramsOf("active", 3.0));
+  rig.forecast(0.0);
+  EXPECT_EQ(rig.state(), kS);
+  rig.during(1.0, [&rig] { rig.moving(); });
+  EXPECT_LT(rig.drive().linear_mps.x(), kSpeed_mps);
+}
+
+TEST(StopSupervisor, SaysWhyItCannotStopNow) {
+  Rig rig("active");
+  EXPECT_EQ(rig.supervisor.stopNow(), "no estimates");
+  rig.moving();
+  rig.supervisor.setOverride(true);
+  EXPECT_EQ(rig.supervisor.stopNow(), "overridden by the operator");
+  rig.supervisor.setEmergencyStop(true);
+  EXPECT_EQ(rig.supervisor.stopNow(), "emergency stop");
+  rig.supervisor.setEmergencyStop(false);
+  rig.supervisor.setOverride(false);
+  EXPECT_EQ(rig.supervisor.stopNow(), "");
+  EXPECT_EQ(rig.state(), kS);
+  EXPECT_EQ(rig.supervisor.stopNow(), "");
+  EXPECT_EQ(Rig("off").supervisor.stopNow(), "the supervisor is off");
+}
+
+TEST(StopSupervisor, ObservesWhatTheFilterSays) {
+  Estimate estimate;
+  estimate.nav.stamp = 7;
+  estimate.stationary = true;
+  estimate.has_wheels = true;
+  estimate.wheels.count = 4;
+  estimate.wheels.largest_speed_mps = 0.001;
+  estimate.motion.v_eb_b = {0.5, 0.0, 0.0};
+  ErrorCovariance P = ErrorCovariance::Zero();
+  P.diagonal().segment<3>(kVelocity) << 1e-4, 4e-4, 7e-4;
+  const RoverObservation observation = observationOf(estimate, P, 0.001);
+  EXPECT_EQ(observation.stamp, 7);
+  EXPECT_EQ(observation.forward_mps, 0.5);
+  EXPECT_NEAR(observation.speed_std_mps, 0.02, 1e-15);
+  EXPECT_TRUE(observation.stationary);
+  EXPECT_TRUE(observation.has_wheels);
+  EXPECT_TRUE(observation.wheels_at_rest);
+  EXPECT_FALSE(observationOf(estimate, P, 0.0009).wheels_at_rest);
+  estimate.has_wheels = false;
+  EXPECT_FALSE(observationOf(estimate, P, 0.001).has_wheels);
+  estimate.wheels.count = 0;
+  EXPECT_FALSE(observationOf(estimate, P, 0.001).wheels_at_rest);
+}
+
+}  // namespace
+}  // namespace slipnav::test

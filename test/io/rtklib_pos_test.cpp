@@ -1,0 +1,200 @@
+#include "io/rtklib_pos.h"
+
+#include <gtest/gtest.h>
+
+#include <GeographicLib/Geocentric.hpp>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace slipnav {
+namespace {
+
+const char* const kDegreesHeader =
+    "% program   : RTKPOST ver.2.4.2\n"
+    "% obs start : 2020/10/15 15:00:00.0 GPST (week2127 399600.0s)\n"
+    "%\n"
+    "%  GPST                  latitude(deg) longitude(deg)  height(m)   Q  ns   sdn(m)   sde(m)   sdu(m)  sdne(m)  "
+    "sdeu(m)  sdun(m) age(s)  ratio\n";
+
+std::vector<RtklibSolution> parse(const std::string& text) {
+  std::istringstream in(text);
+  return readRtklibPos(in, "x.pos");
+}
+
+/// Message of the error that reading `text` throws; empty when it throws none.
+std::string errorOf(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(RtklibPos, readsDegreesInGpsTime) {
+  const auto solutions = parse(std::string(kDegreesHeader) +
+                               "2020/10/15 15:00:18.100   39.600000001  -79.900000002   250.1234   1   9   0.0100   "
+                               "0.0200   0.0300   0.0050  -0.0060   0.0070   0.10    9.9\n"
+                               "\n"
+                               "2020/10/15 15:00:18.200   39.6  -79.9   250.2   4   8   1 2 3 0 0 0   0.10    1.0\n\n");
+  ASSERT_EQ(solutions.size(), 2U);
+  const RtklibSolution& first = solutions[0];
+  // date -u -d '2020-10-15 15:00:00' +%s: GPS time led UTC by 18 s
+  EXPECT_EQ(first.fix.stamp, 1'602'774'000 * kSecond + kSecond / 10);
+  EXPECT_NEAR(first.fix.latitude_deg, 39.600000001, 1e-12);
+  EXPECT_NEAR(first.fix.longitude_deg, -79.900000002, 1e-12);
+  EXPECT_DOUBLE_EQ(first.fix.height_m, 250.1234);
+  EXPECT_EQ(first.quality, RtklibQuality::kFix);
+  EXPECT_EQ(first.satellites, 9);
+  Matrix3 covariance_ned;
+  covariance_ned << 1e-4, 25e-6, -49e-6, 25e-6, 4e-4, 36e-6, -49e-6, 36e-6, 9e-4;
+  EXPECT_LT((first.fix.covariance_ned_m2 - covariance_ned).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_EQ(solutions[1].quality, RtklibQuality::kDgps);
+}
+
+TEST(RtklibPos, readsTheTimeSystems) {
+  const std::string columns = " latitude(deg) longitude(deg) height(m) Q ns sdn sde sdu sdne sdeu sdun age ratio\n";
+  const std::string rest = " 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n";
+  const Nanoseconds expected = 1'602'774'000 * kSecond;
+  EXPECT_EQ(parse("%  UTC" + columns + "2020/10/15 15:00:00.000" + rest)[0].fix.stamp, expected);
+  EXPECT_EQ(parse("%  JST" + columns + "2020/10/16 00:00:00.000" + rest)[0].fix.stamp, expected);
+  EXPECT_EQ(parse("%  GPST" + columns + "2127 399618.000" + rest)[0].fix.stamp, expected);
+  EXPECT_EQ(parse("%  UTC" + columns + "2127 399600.000" + rest)[0].fix.stamp, expected);
+}
+
+TEST(RtklibPos, crossesALeapSecond) {
+  const std::string rest = " 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n";
+  const auto solutions =
+      parse(std::string(kDegreesHeader) + "2017/01/01 00:00:16.900" + rest + "2017/01/01 00:00:18.100" + rest);
+  const Nanoseconds midnight = 1'483'228'800 * kSecond;
+  EXPECT_EQ(solutions[0].fix.stamp, midnight - kSecond / 10);
+  EXPECT_EQ(solutions[1].fix.stamp, midnight + kSecond / 10);
+}
+
+TEST(RtklibPos, readsDegreesMinutesSecondsAndCommas) {
+  const auto solutions = parse(
+      "%  "
+      "UTC,latitude(d'\"),longitude(d'\"),height(m),Q,ns,sdn(m),sde(m),sdu(m),sdne(m),sdeu(m),sdue(m),age(s),ratio\r\n"
+      "2020/10/15 15:00:00.000,  39 36 36.00000, -0 30 36.00000, 250.5, 2, 7, 1, 2, 3, 0, 0, 0, 0.00, 1.0\r\n");
+  ASSERT_EQ(solutions.size(), 1U);
+  EXPECT_NEAR(solutions[0].fix.latitude_deg, 39.61, 1e-12);
+  EXPECT_NEAR(solutions[0].fix.longitude_deg, -0.51, 1e-12);
+  EXPECT_DOUBLE_EQ(solutions[0].fix.height_m, 250.5);
+  EXPECT_EQ(solutions[0].quality, RtklibQuality::kFloat);
+  EXPECT_NEAR(solutions[0].fix.covariance_ned_m2(1, 1), 4.0, 1e-12);
+}
+
+/// Earth-centred coordinates of 39.6° N, 79.9° W, 250 m, written with 0.1 mm, as RTKLIB does.
+std::string ecefText() {
+  double x = 0.0;
+  double y = 0.0;
+  double z = 0.0;
+  GeographicLib::Geocentric::WGS84().Forward(39.6, -79.9, 250.0, x, y, z);
+  char text[80];
+  std::snprintf(text, sizeof text, "%.4f %.4f %.4f", x, y, z);
+  return text;
+}
+
+TEST(RtklibPos, readsEarthCentredCoordinates) {
+  const auto solutions = parse(
+      "%  GPST x-ecef(m) y-ecef(m) z-ecef(m) Q ns sdx(m) sdy(m) sdz(m) sdxy(m) sdyz(m) sdzx(m) age(s) ratio\n"
+      "2020/10/15 15:00:18.000 " +
+      ecefText() + " 1 9 0.2 0.2 0.2 0 0 0 0 0\n");
+  ASSERT_EQ(solutions.size(), 1U);
+  EXPECT_NEAR(solutions[0].fix.latitude_deg, 39.6, 2e-9);
+  EXPECT_NEAR(solutions[0].fix.longitude_deg, -79.9, 2e-9);
+  EXPECT_NEAR(solutions[0].fix.height_m, 250.0, 2e-4);
+  EXPECT_LT((solutions[0].fix.covariance_ned_m2 - 0.04 * Matrix3::Identity()).norm(), 1e-12);
+}
+
+TEST(RtklibPos, turnsEarthCentredCovariance) {
+  // where equator and prime meridian meet x points up, y east, z north
+  const auto solutions = parse(
+      "%  GPST x-ecef(m) y-ecef(m) z-ecef(m) Q ns sdx(m) sdy(m) sdz(m) sdxy(m) sdyz(m) sdzx(m) age(s) ratio\n"
+      "2020/10/15 15:00:18.000 6378137 0 0 1 9 1 2 3 0.5 0.6 0.7 0 0\n");
+  Matrix3 covariance_ned;
+  covariance_ned << 9.0, 0.36, -0.49, 0.36, 4.0, -0.25, -0.49, -0.25, 1.0;
+  EXPECT_LT((solutions[0].fix.covariance_ned_m2 - covariance_ned).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(RtklibPos, readsBaselinesFromTheReferencePosition) {
+  const std::string header =
+      "%  GPST e-baseline(m) n-baseline(m) u-baseline(m) Q ns sde(m) sdn(m) sdu(m) sden(m) sdnu(m) sdue(m) age(s) "
+      "ratio\n";
+  const std::string row = "2020/10/15 15:00:18.000 0.0000 111.0360 -2.0000 1 9 1 2 3 0 0 0 0 0\n";
+  const auto solutions = parse("% ref pos   : " + ecefText() + "\n" + header + row);
+  ASSERT_EQ(solutions.size(), 1U);
+  // a thousandth of a degree of latitude at 39.6° is 111.036 m
+  EXPECT_NEAR(solutions[0].fix.latitude_deg, 39.601, 1e-7);
+  EXPECT_NEAR(solutions[0].fix.longitude_deg, -79.9, 1e-9);
+  EXPECT_NEAR(solutions[0].fix.height_m, 248.001, 1e-3);
+  EXPECT_LT((solutions[0].fix.covariance_ned_m2.diagonal() - Vector3(4.0, 1.0, 9.0)).norm(), 1e-3);
+  EXPECT_NE(errorOf(header + row).find("x.pos:2: "), std::string::npos);
+}
+
+TEST(RtklibPos, namesFileAndLineOfWhatItCannotRead) {
+  const std::string header = kDegreesHeader;
+  const std::string good = "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n";
+  EXPECT_EQ(errorOf(header + good), "");
+  EXPECT_EQ(errorOf(header + good + "2020/10/15 15:00:18.100 39.6 -79.9 25"), "x.pos:6: 5 fields instead of 15");
+  EXPECT_EQ(errorOf(header + "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0\n"),
+            "x.pos:5: 14 fields instead of 15");
+  EXPECT_EQ(errorOf(header + "2020/10/15 15:00:18.000 39.6 -79.9x 250 1 9 .1 .1 .1 0 0 0 0 0\n"),
+            "x.pos:5: '-79.9x' is not a number");
+  EXPECT_EQ(errorOf(header + "2020/13/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n"),
+            "x.pos:5: month 13 is out of range");
+  EXPECT_EQ(errorOf(header + "2020/10/15 15:00 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n"),
+            "x.pos:5: '2020/10/15 15:00' is not a date and time");
+  EXPECT_EQ(errorOf(header + "2020/10/15 15:00:18.000 139.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n"),
+            "x.pos:5: latitude or longitude is out of range");
+  EXPECT_EQ(errorOf(header + "2020/10/15 15:00:18.000 39.6 -79.9 250 8 9 .1 .1 .1 0 0 0 0 0\n"),
+            "x.pos:5: quality '8' is not in 1 to 7");
+  EXPECT_EQ(errorOf(good), "x.pos:1: a solution before the header line that names the columns");
+  EXPECT_EQ(errorOf("%  GPST northing(m) a b c d e f g h i j k l\n"), "x.pos:1: unknown coordinates 'northing(m)'");
+  EXPECT_EQ(errorOf("%  GPST latitude(deg) longitude(deg) height(m)\n"),
+            "x.pos:1: the header names 4 columns, fewer than 12");
+}
+
+TEST(RtklibPos, refusesHeightsAboveTheGeoid) {
+  try {
+    parse("% (lat/lon/height=WGS84/geodetic,Q=1:fix,ns=# of satellites)\n");
+    FAIL() << "geodetic heights were taken for ellipsoidal ones";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("heights are geodetic"), std::string::npos) << error.what();
+  }
+  EXPECT_TRUE(parse("% (lat/lon/height=WGS84/ellipsoidal,Q=1:fix,ns=# of satellites)\n").empty());
+}
+
+TEST(RtklibPos, marksEpochsWithoutSolution) {
+  const auto solutions = parse(std::string(kDegreesHeader) +
+                               "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n"
+                               "2020/10/15 15:00:18.100 0 0 0 0 0 0 0 0 0 0 0 0 0\n");
+  ASSERT_EQ(solutions.size(), 2U);
+  EXPECT_TRUE(solutions[0].solved());
+  EXPECT_FALSE(solutions[1].solved());
+}
+
+TEST(RtklibPos, isKnownByItsEndingInAnyCase) {
+  EXPECT_TRUE(isRtklibFile("X.POS"));
+  EXPECT_TRUE(isRtklibFile("x.pos"));
+  EXPECT_FALSE(isRtklibFile("truth/fix"));
+  EXPECT_FALSE(isRtklibFile(".pos"));
+}
+
+TEST(RtklibPos, readsFilesAndNamesMissingOnes) {
+  const std::string path = ::testing::TempDir() + "slipnav_rtklib_test.pos";
+  std::ofstream(path) << kDegreesHeader << "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0";
+  EXPECT_EQ(readRtklibPos(path).size(), 1U);
+  std::remove(path.c_str());
+  try {
+    readRtklibPos(path);
+    FAIL() << "a missing file was read";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()), "cannot read " + path);
+  }
+}
+
+}  // namespace
+}  // namespace slipnav
