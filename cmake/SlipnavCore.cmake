@@ -25,3 +25,6 @@ target_link_libraries(slipnav_core
   PUBLIC Eigen3::Eigen Threads::Threads ${GeographicLib_LIBRARIES}
   PRIVATE ${NLOPT_LIBRARY})
 target_link_libraries(slipnav_config PUBLIC ${YAML_CPP_LIBRARIES})
+#catkin_lint: ignore_once external_interface_path
+target_include_directories(slipnav_tuning SYSTEM PRIVATE ${NLOPT_INCLUDE_DIR})
+target_link_libraries(slipnav_tuning PRIVATE ${NLOPT_LIBRARY})

@@ -5,7 +5,6 @@ list(APPEND CMAKE_MODULE_PATH /usr/share/cmake/geographiclib)
 find_package(GeographicLib REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(Threads REQUIRED)
-find_package(Threads REQUIRED)
 
 find_path(NLOPT_INCLUDE_DIR nlopt.hpp)
 find_library(NLOPT_LIBRARY NAMES nlopt_cxx nlopt)

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "evaluation/alignment.h"
+
 namespace slipnav {
 namespace {
 

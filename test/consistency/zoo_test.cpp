@@ -96,6 +96,22 @@ TEST_P(Zoo, IsHonestAndHarmless) {
   EXPECT_GE(coverage_pct, kLeastCoverage_pct);
 }
 
+class Stuck : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Stuck, StandsWhereItStands) {
+  constexpr int kDrives = 4;
+  constexpr double kLargestError_m = 3.0;
+  for (int seed = 1; seed <= kDrives; ++seed) {
+    const SimulationReport report = driveIn({GetParam(), "tactical", "none"}, seed);
+    EXPECT_LE(report.figures.largest_error_m, kLargestError_m) << "seed " << seed;
+    EXPECT_GE(report.run.metrics.coverage_3sigma_pct.value(), kLeastCoverage_pct) << "seed " << seed;
+    EXPECT_EQ(report.figures.alarms.count("stuck: the wheels turn and the rover stands"), 1U) << "seed " << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Stuck, ::testing::Values("stuck_20s", "stuck_60s", "stuck_120s"),
+                         [](const auto& world) { return std::string(world.param); });
+
 INSTANTIATE_TEST_SUITE_P(Worlds, Zoo,
                          ::testing::Values(Place{"rough", "tactical", "periodic:30:5"},
                                            Place{"unpaved", "tactical", "periodic:30:5"},

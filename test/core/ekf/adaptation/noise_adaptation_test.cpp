@@ -26,14 +26,14 @@ class Learner {
   const NoiseAdaptation& adaptation() const { return adaptation_; }
 
   /// Noise of one more step.
-  ErrorVector step() {
+  ErrorVector step(double slow_slip = 0.0) {
     InsStep step;
     step.start = fromSeconds(kStep_s * steps_++);
     step.state = state_;
     step.state.stamp = step.start + fromSeconds(kStep_s);
     step.f_ib_b = Vector3(0.0, 0.0, -9.8);
     ErrorTransition transition = dynamics_.transition(state_, state_, step.f_ib_b, Vector3::Zero(), kStep_s);
-    adaptation_.addNoise(dynamics_, step, step.state, kWay_m, transition);
+    adaptation_.addNoise(dynamics_, step, step.state, slow_slip, kWay_m, transition);
     return transition.noise;
   }
 
@@ -100,6 +100,15 @@ TEST(NoiseAdaptation, APersistentContradictionIsNoNoiseOfTheConstraint) {
   EXPECT_GT(after(kVelocity + 2), 2.0 * before(kVelocity + 2)) << "beside the part of the bias that is unsteady anyway";
 }
 
+TEST(NoiseAdaptation, GroundSlipsAtLeastAsMuchAsItIsSeenTo) {
+  Learner learner;
+  const double firm = learner.step(0.0)(kSlowSlip);
+  EXPECT_EQ(learner.step(0.01)(kSlowSlip), firm) << "less than the ground may have anyway";
+  learner.step(-0.4);
+  EXPECT_NEAR(learner.adaptation().ground().slow_slip_variance, square(0.4), 1e-12);
+  EXPECT_GT(learner.step(-0.4)(kSlowSlip), 50.0 * firm);
+}
+
 TEST(NoiseAdaptation, ARoverAtRestHasTheNoiseOfItsDataSheet) {
   ImuNoiseParams imu;
   const ErrorDynamics dynamics(Planet::byName("earth"), imu, {});
@@ -109,10 +118,10 @@ TEST(NoiseAdaptation, ARoverAtRestHasTheNoiseOfItsDataSheet) {
   step.f_ib_b = Vector3(0.0, 0.0, -9.8);
   const ErrorTransition bare = dynamics.transition(step.state, step.state, step.f_ib_b, Vector3::Zero(), kStep_s);
   ErrorTransition resting = bare;
-  adaptation.addNoise(dynamics, step, step.state, 0.0, resting);
+  adaptation.addNoise(dynamics, step, step.state, 0.0, 0.0, resting);
   EXPECT_LT((resting.noise.head<kNavStates>() - bare.noise.head<kNavStates>()).norm(), 1e-15);
   ErrorTransition driving = bare;
-  adaptation.addNoise(dynamics, step, step.state, kWay_m, driving);
+  adaptation.addNoise(dynamics, step, step.state, 0.0, kWay_m, driving);
   const double unsteady = square(0.1 * imuFloor(imu).accel_bias_std) * kStep_s;
   const double factor = square(NoiseScaleParams().imu_factor_std);
   EXPECT_NEAR(driving.noise(kVelocity), factor * bare.noise(kVelocity) + unsteady, 1e-6 * driving.noise(kVelocity));
