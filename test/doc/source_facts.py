@@ -177,8 +177,8 @@ def diagnostic_texts():
 
 def all_literals():
     """All string literals of the code, adjacent ones joined."""
-    paths = glob.glob(os.path.join(ROOT, "src/**/*.cpp"), recursive=True)
-    paths += glob.glob(os.path.join(ROOT, "include/**/*.h"), recursive=True)
+    patterns = ("src/**/*.cpp", "src/**/*.h", "include/**/*.h")
+    paths = [path for pattern in patterns for path in glob.glob(os.path.join(ROOT, pattern), recursive=True)]
     return {text for path in paths for text in literals(read(path))}
 
 
