@@ -49,9 +49,10 @@ TEST(ConfigFiles, ReferenceListsEveryParameter) {
 }
 
 TEST(ConfigFiles, EveryConfigurationLoads) {
+  const std::filesystem::path for_another_program = "diagnostic_aggregator.yaml";
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SLIPNAV_SOURCE_DIR "/config")) {
-    if (entry.path().extension() == ".yaml") {
+    if (entry.path().extension() == ".yaml" && entry.path().filename() != for_another_program) {
       EXPECT_NO_THROW(Config::load({entry.path().string()})) << entry.path();
       ++count;
     }
