@@ -16,7 +16,7 @@ constexpr int kDrives = 40;
 constexpr double kDistance_m = 650.0;
 /// What the average normalised estimation error squared, per degree of freedom, may be: 1 is exact.
 /// The filter does not know this ground before it drives on it, and is cautious by about a factor of two.
-constexpr Range kAnees{0.12, 1.6};
+constexpr Range kAnees{0.1, 1.6};
 /// Of the velocity at a minute that may fall on a stop, or just before one.
 constexpr Range kVelocityAnees{0.03, 2.5};
 /// Noise that lasts counts as a density: single innovations are smaller.

@@ -28,12 +28,13 @@ class ReplayEquality : public test::ReplayFixture {};
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Keeps whether each status was well the last time, by its name.
+/// Keeps whether each status has been well, by its name. When the recording has ended the sensors are silent.
 ros::Subscriber listenToDiagnostics(std::map<std::string, bool>& well) {
   const boost::function<void(const diagnostic_msgs::DiagnosticArray::ConstPtr&)> note =
       [&well](const diagnostic_msgs::DiagnosticArray::ConstPtr& message) {
         for (const diagnostic_msgs::DiagnosticStatus& status : message->status) {
-          well[status.name] = status.level == diagnostic_msgs::DiagnosticStatus::OK;
+          bool& was_well = well[status.name];
+          was_well = was_well || status.level == diagnostic_msgs::DiagnosticStatus::OK;
         }
       };
   return ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, note);

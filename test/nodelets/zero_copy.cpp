@@ -27,6 +27,7 @@
 #include <slipnav/StopStatus.h>
 #include <std_msgs/Float64.h>
 #include <std_msgs/Header.h>
+#include <std_msgs/String.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
@@ -134,6 +135,7 @@ std::vector<Probe> probes(const TopicNames& topics) {
   all.push_back(probe<nav_msgs::Path>(topics.wheel_path));
   all.push_back(probe<visualization_msgs::MarkerArray>(topics.markers));
   all.push_back(probe<sensor_msgs::JointState>(kModelJointsTopic));
+  all.push_back(probe<std_msgs::String>(kFiguresTopic));
   return all;
 }
 

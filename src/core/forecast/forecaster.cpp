@@ -221,7 +221,8 @@ void Forecaster::learnGround(const Forecast& forecast) {
   outlook_.wheel_speed_mps = std::copysign(wheel.mean_mps, outlook_.speed_mps);
   // The filter's model has the slip ratio times the wheel speed; what of the true map is steeper goes to the slip.
   const double steepness = wheel.mean_mps > 0.0 ? wheel.sensitivity_mps / wheel.mean_mps : 1.0;
-  outlook_.drift_std = steepness * forecast.correlation.bias_stddev;
+  // The next ground may slip less, or as much more: the mean is no better known than it is large.
+  outlook_.drift_std = steepness * std::max(forecast.correlation.bias_stddev, std::abs(mean_slip));
   outlook_.change_std = steepness * forecast.correlation.stddev;
   outlook_.change_time_s = std::max(forecast.correlation.time_constant_s, params_.wheel_interval_s);
   outlook_.wheel_noise_variance = square(setup_.wheel.speed_std_mps) + square(wheel.sensitivity_mps * noise_std);

@@ -90,6 +90,10 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
                                  : drive(wheels, motion);
   estimate_.stuck = stuck;
   estimate_.noise_factors = adaptation_.factors();
+  const double slow_slip_variance = dynamics_.ground().slow_slip_variance;
+  if (slow_slip_variance > 0.0) {  // with the slope, and the slip that the ground has been seen to have
+    estimate_.noise_factors.slow_slip = adaptation_.ground().slow_slip_variance / slow_slip_variance;
+  }
   return corrected;
 }
 
