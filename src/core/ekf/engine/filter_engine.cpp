@@ -16,6 +16,11 @@ namespace {
 constexpr double kLongestFixInterval_s = 2.5;
 constexpr std::size_t kMaxFixes = 4096;  // not yet applied
 
+/// An estimate of slip beyond so many of its standard deviations is no error of the IMU.
+constexpr double kShownSigmas = 2.0;
+
+double shownSlip(double slip, double variance) { return square(slip) > square(kShownSigmas) * variance ? slip : 0.0; }
+
 bool earlier(const AntennaFix& a, const AntennaFix& b) {
   return std::pair(stampOf(a), a.index()) < std::pair(stampOf(b), b.index());
 }
@@ -216,7 +221,8 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   const Vector3 v_start_b = referenceVelocity(step);
   const double duration_s = std::min(toSeconds(step.state.stamp - step.start), kLongestGap_s);
   transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
-  adaptation_.addNoise(dynamics_, step, step.state, vehicle_.slow_slip, surface_speed_mps_ * duration_s, transition_);
+  adaptation_.addNoise(dynamics_, step, step.state, shownSlip(vehicle_.slow_slip, P_(kSlowSlip, kSlowSlip)),
+                       surface_speed_mps_ * duration_s, transition_);
   ErrorDynamics::propagate(transition_, P_);
   average_.propagate(transition_);
   constraint_average_.propagate(transition_);
