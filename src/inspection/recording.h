@@ -75,6 +75,7 @@ struct RawFixSample {
   GnssFix fix;
 };
 
+/// Satellite positions of one topic and one frame.
 struct FixRecord {
   std::string topic;
   std::string frame;

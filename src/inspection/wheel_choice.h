@@ -9,6 +9,7 @@
 
 namespace slipnav {
 
+/// Of the vehicle.
 enum class Side { kUnknown, kLeft, kRight };
 
 /// By the words in a name: "left", "right", and the usual shorts (fl, rr, l, r).

@@ -29,6 +29,7 @@ class FitToDrive {
 
   void take(const diagnostic_msgs::DiagnosticArray& message, double now_s);
 
+  /// What the status says.
   struct Verdict {
     int level;  ///< as in diagnostic_msgs/DiagnosticStatus
     std::string message;

@@ -7,6 +7,7 @@
 
 namespace slipnav {
 
+/// Measures the way over which the fast slip stays.
 class LastingSlip {
  public:
   void reset() { *this = LastingSlip(); }
