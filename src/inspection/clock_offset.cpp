@@ -47,7 +47,8 @@ double correlation(const Signal& a, const Signal& b, int shift) {
   const int size = static_cast<int>(std::min(a.size(), b.size()));
   for (int i = std::max(0, -shift); i < std::min(size, size - shift); ++i) {
     const double x = a[static_cast<std::size_t>(i)];
-    const double y = b[static_cast<std::size_t>(i + shift)];
+    const int j = i + shift;
+    const double y = b[static_cast<std::size_t>(j)];
     product += x * y;
     energy_a += x * x;
     energy_b += y * y;

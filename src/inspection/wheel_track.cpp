@@ -30,6 +30,7 @@ void addOnce(const std::string& text, std::vector<std::string>& texts) {
 
 std::vector<WheelParams> asParameters(const std::vector<WheelJoint>& wheels) {
   std::vector<WheelParams> parameters;
+  parameters.reserve(wheels.size());
   for (const WheelJoint& wheel : wheels) {
     parameters.push_back({wheel.name, 1.0, 0.0, 0.0, 1.0});  // rates as they are
   }

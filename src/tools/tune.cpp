@@ -28,6 +28,7 @@ CommandLine commandLine() {
 
 std::vector<slipnav::TuningDrive> readDrives(const std::vector<std::string>& bags, const slipnav::Config& config) {
   std::vector<slipnav::TuningDrive> drives;
+  drives.reserve(bags.size());
   for (const std::string& bag : bags) {
     drives.push_back(slipnav::readTuningDrive(bag, config));
   }

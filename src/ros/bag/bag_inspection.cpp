@@ -206,6 +206,7 @@ std::vector<std::string> inOrderOfTime(const std::vector<std::string>& paths) {
   }
   std::sort(begins.begin(), begins.end());
   std::vector<std::string> ordered;
+  ordered.reserve(begins.size());
   for (const auto& begin : begins) {
     ordered.push_back(begin.second);
   }
