@@ -31,7 +31,8 @@ class NoiseAdaptation {
   void interrupt() { meter_.interrupt(); }
 
   /// Slip of the ground under a step, and its noise and that of the shaken IMU, into a transition.
-  /// @param state at the end of the step; @param slow_slip that the drive has shown, 0 for none; @param way_m of the wheels' surface in it
+  /// @param state at the end of the step; @param slow_slip that the drive has shown, 0 for none; @param way_m of the
+  /// wheels' surface in it
   void addNoise(const ErrorDynamics& dynamics, const InsStep& step, const NavigationState& state, double slow_slip,
                 double way_m, ErrorTransition& transition);
 
