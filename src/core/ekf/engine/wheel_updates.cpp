@@ -30,6 +30,8 @@ bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
   estimate_.has_wheels = false;
   if (toSeconds(step.state.stamp - estimate_.wheels.stamp) > setup_.filter.max_wheel_interval_s) {
     estimate_.stationary = false;
+    estimate_.stuck = false;
+    stuck_.reset();  // what does not turn any more does not spin
   }
   bool corrected = false;
   while (wheels_.hasUpTo(step.state.stamp)) {
