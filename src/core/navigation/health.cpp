@@ -95,6 +95,9 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
   noteSilence(now);
   noteDirection(filter.state());
   noteRejections(filter);
+  if (filter.recoveries() != std::exchange(recoveries_, filter.recoveries())) {
+    note("faster than any slip explains: velocity and level begun anew from wheels and gravity", now);
+  }
   if (filter.isStuck()) {
     note("stuck: the wheels turn and the rover stands", now);
   }

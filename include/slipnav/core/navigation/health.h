@@ -35,7 +35,8 @@ class HealthMonitor {
   void noteSetBack(double step_s, Nanoseconds stamp);
   /// @param taken whether the filter had use for it
   void noteWheels(const WheelMotion& wheels, bool taken);
-  /// Looks at rejected measurements, silent wheels, wheels that contradict the others, and wheels that turn backwards.
+  /// Looks at rejected measurements, an estimate that ran away, silent wheels, wheels that contradict the others, and
+  /// wheels that turn backwards.
   void noteFilter(const FilterEngine& filter);
   /// Anything else that is wrong at `stamp`.
   void note(const std::string& name, Nanoseconds stamp);
@@ -59,6 +60,7 @@ class HealthMonitor {
   Nanoseconds newest_wheels_ = 0;
   double wheel_speed_mps_ = 0.0;   ///< forward, by the newest wheel sample
   Nanoseconds against_since_ = 0;  ///< wheels and vehicle go opposite ways; 0: they do not
+  std::uint64_t recoveries_ = 0;   ///< as of the last look
   StampFaults stamp_faults_;       ///< as noted last
   std::map<std::string, double> sizes_;
   Alarms alarms_;

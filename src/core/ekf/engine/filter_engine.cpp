@@ -69,6 +69,7 @@ void FilterEngine::initialise(const InitialState& initial) {
   estimate_ = Estimate{};
   detector_.reset();
   stuck_.reset();
+  runaway_.reset();
   update_ = GatedUpdate(setup_.filter);
   tremor_ = Tremor(setup_.zero);
   wheel_monitor_.reset();
@@ -227,7 +228,9 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   average_.propagate(transition_);
   constraint_average_.propagate(transition_);
   ErrorDynamics::decay(transition_, vehicle_);
-  detector_.addImu(step.state.stamp, step.f_ib_b + state_.accel_bias_b, step.omega_ib_b + state_.gyro_bias_b);
+  const Vector3 f_ib_b = step.f_ib_b + state_.accel_bias_b;
+  detector_.addImu(step.state.stamp, f_ib_b, step.omega_ib_b + state_.gyro_bias_b);
+  runaway_.addImu(f_ib_b, duration_s);
   state_ = step.state;
   if (step.gap_s > 0.0) {
     endGap(step, before);

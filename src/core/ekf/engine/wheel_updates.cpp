@@ -82,6 +82,12 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   if (wheels.count > 1 && wheels.count == wheel_monitor_.count()) {
     wheel_monitor_.add(wheels.stamp, wheels.circumferential_mps, motion.omega_ib_b.z());
   }
+  if (use_wheel_ && wheel_monitor_.isUsable() &&
+      runaway_.addWheels(wheels.stamp, std::min(wheels.largest_speed_mps, setup_.wheel_monitor.max_speed_mps),
+                         state_.v_eb_n.norm(), motion.duration_s)) {
+    recover(wheels);
+    return true;
+  }
   const bool at_rest = detector_.judge(planet_.gravity_n(state_.position).norm(), !stuck_.isSuspected());
   const bool stuck = !at_rest && use_zupt_ && spinsOnTheSpot(wheels, motion);
   if (at_rest) {

@@ -22,6 +22,7 @@
 #include "slipnav/core/ekf/engine/innovation.h"
 #include "slipnav/core/ekf/engine/lasting_slip.h"
 #include "slipnav/core/ekf/engine/mean_motion.h"
+#include "slipnav/core/ekf/engine/runaway_watch.h"
 #include "slipnav/core/ekf/engine/unseen_motion.h"
 #include "slipnav/core/ekf/engine/wheel_queue.h"
 #include "slipnav/core/ekf/error_dynamics.h"
@@ -95,6 +96,8 @@ class FilterEngine {
   const WheelMonitor& wheelMonitor() const { return wheel_monitor_; }
   /// Whether the rover stands while its wheels turn, as of the last wheel sample.
   bool isStuck() const { return stuck_.isStuck(); }
+  /// How often the estimate had run away from its wheels and was begun anew.
+  std::uint64_t recoveries() const { return recoveries_; }
 
  private:
   bool isCertain(const InsStep& step) const;
@@ -110,6 +113,7 @@ class FilterEngine {
   bool drive(const WheelMotion& wheels, const BodyMotion& motion);
   bool spinsOnTheSpot(const WheelMotion& wheels, const BodyMotion& motion);
   bool standOnSpinningWheels(const WheelMotion& wheels, const BodyMotion& motion);
+  void recover(const WheelMotion& wheels);
   void openSlowSlip();
   void addForwardSpeed(const WheelMotion& wheels, const BodyMotion& motion, MeasurementSet& set);
   void addConstraints(Nanoseconds stamp, MeasurementSet& set);
@@ -132,6 +136,8 @@ class FilterEngine {
   GatedUpdate update_;
   UnseenMotion unseen_motion_;
   StuckDetector stuck_;
+  RunawayWatch runaway_;
+  std::uint64_t recoveries_ = 0;
   WheelMonitor wheel_monitor_;
   Tremor tremor_;
   NoiseAdaptation adaptation_;

@@ -1,0 +1,48 @@
+#include "slipnav/core/ekf/engine/runaway_watch.h"
+
+#include <algorithm>
+
+#include "core/ins/levelling.h"
+
+namespace slipnav {
+namespace {
+
+constexpr double kFactor = 2.0;  // a wheel that locks at speed leaves the vehicle at once that speed
+constexpr double kLasting_s = 1.0;
+constexpr double kLeast_mps = 0.1;    // wheels that have hardly turned yet are no measure
+constexpr double kLevelling_s = 5.0;  // rocking over stones averages out, the way to a slope is not yet forgotten
+constexpr double kShortest_s = 0.1;   // of levelling
+
+}  // namespace
+
+void RunawayWatch::addImu(const Vector3& f_ib_b, double duration_s) {
+  averaged_s_ = std::min(averaged_s_ + duration_s, kLevelling_s);
+  f_mean_b_ += duration_s / std::max(averaged_s_, duration_s) * (f_ib_b - f_mean_b_);
+}
+
+bool RunawayWatch::addWheels(Nanoseconds stamp, double wheels_mps, double speed_mps, double interval_s) {
+  fastest_mps_ = std::max(fastest_mps_, wheels_mps);
+  const double limit_mps = std::max(fastest_mps_, kLeast_mps);
+  if (wheels_mps <= 0.0 || speed_mps <= kFactor * limit_mps) {
+    since_ = 0;
+    return false;
+  }
+  if (since_ == 0) {
+    since_ = stamp;
+    way_beyond_m_ = 0.0;
+  }
+  way_beyond_m_ += (speed_mps - limit_mps) * interval_s;
+  if (toSeconds(stamp - since_) < kLasting_s) {
+    return false;
+  }
+  since_ = 0;
+  return true;
+}
+
+Vector2 RunawayWatch::level() const { return levelAtRest(f_mean_b_); }
+
+double RunawayWatch::levelStd_rad(double gravity_mps2) const {
+  return std::max(fastest_mps_, kLeast_mps) / std::max(averaged_s_, kShortest_s) / gravity_mps2;
+}
+
+}  // namespace slipnav

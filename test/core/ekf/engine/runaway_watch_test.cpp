@@ -1,0 +1,66 @@
+#include "slipnav/core/ekf/engine/runaway_watch.h"
+
+#include <gtest/gtest.h>
+
+namespace slipnav::test {
+namespace {
+
+constexpr double kStep_s = 0.1;
+constexpr double kGravity_mps2 = 9.81;
+
+/// How often it has run away in `duration_s` of the same speeds.
+int ranAway(RunawayWatch& watch, double wheels_mps, double speed_mps, double duration_s, Nanoseconds& now) {
+  int count = 0;
+  for (double t_s = 0.0; t_s < duration_s; t_s += kStep_s) {
+    now += fromSeconds(kStep_s);
+    count += watch.addWheels(now, wheels_mps, speed_mps, kStep_s) ? 1 : 0;
+  }
+  return count;
+}
+
+class Runaway : public ::testing::Test {
+ protected:
+  RunawayWatch watch_;
+  Nanoseconds now_ = fromSeconds(100.0);
+};
+
+TEST_F(Runaway, IsTwiceTheFastestForASecond) {
+  EXPECT_EQ(ranAway(watch_, 1.0, 1.9, 60.0, now_), 0);
+  EXPECT_EQ(ranAway(watch_, 1.0, 2.1, 0.9, now_), 0);
+  EXPECT_EQ(ranAway(watch_, 1.0, 2.1, 0.3, now_), 1);
+  EXPECT_NEAR(watch_.wayBeyond_m(), 1.1 * 1.1, 0.12);
+}
+
+TEST_F(Runaway, IsSaidAgainWhileItLasts) { EXPECT_EQ(ranAway(watch_, 1.0, 9.0, 5.05, now_), 4); }
+
+TEST_F(Runaway, TheFastestIsThatOfTheWholeDrive) {
+  ranAway(watch_, 3.0, 3.0, 1.0, now_);
+  EXPECT_EQ(ranAway(watch_, 0.2, 5.0, 30.0, now_), 0);
+  EXPECT_DOUBLE_EQ(watch_.fastest_mps(), 3.0);
+}
+
+/// Locked on a slope, or carried: nothing that the wheels could say.
+TEST_F(Runaway, WheelsAtRestSayNothing) { EXPECT_EQ(ranAway(watch_, 0.0, 9.0, 30.0, now_), 0); }
+
+TEST_F(Runaway, AMomentOfAgreementEndsIt) {
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_EQ(ranAway(watch_, 1.0, 9.0, 0.75, now_), 0);
+    EXPECT_EQ(ranAway(watch_, 1.0, 1.0, 0.05, now_), 0);
+  }
+}
+
+TEST_F(Runaway, TheLevelIsThatOfTheLastSeconds) {
+  for (int i = 0; i < 100; ++i) {
+    watch_.addImu({3.0, 0.0, -9.0}, kStep_s);
+  }
+  for (int i = 0; i < 600; ++i) {
+    watch_.addImu({0.0, i % 2 == 0 ? 2.0 : -2.0, -kGravity_mps2}, kStep_s);
+  }
+  EXPECT_NEAR(watch_.level().x(), 0.0, 5e-3);
+  EXPECT_NEAR(watch_.level().y(), 0.0, 1e-4);
+  ranAway(watch_, 2.0, 2.0, 1.0, now_);
+  EXPECT_NEAR(watch_.levelStd_rad(kGravity_mps2), 2.0 / 5.0 / kGravity_mps2, 1e-9);
+}
+
+}  // namespace
+}  // namespace slipnav::test
