@@ -35,6 +35,16 @@ void JsonObject::addNumber(const char* key, std::optional<double> value) {
 
 void JsonObject::addText(const char* key, const std::string& value) { begin(key) << quoted(value); }
 
+/// Its members are indented by one level more.
+void JsonObject::addObject(const char* key, const JsonObject& value) {
+  std::ostream& out = begin(key) << '{';
+  std::istringstream members(value.out_.str());
+  for (std::string line; std::getline(members, line);) {
+    out << "\n  " << line;
+  }
+  out << "\n  }";
+}
+
 void JsonObject::addAlarms(const char* key, const Alarms& alarms) {
   std::ostream& out = begin(key);
   const char* separator = "[";

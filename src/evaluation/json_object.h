@@ -20,6 +20,7 @@ class JsonObject {
   /// `null` for what is not known or not finite.
   void addNumber(const char* key, std::optional<double> value);
   void addText(const char* key, const std::string& value);
+  void addObject(const char* key, const JsonObject& value);
   /// A list of one object per alarm: what, count, first_s, last_s.
   void addAlarms(const char* key, const Alarms& alarms);
 

@@ -7,6 +7,7 @@
 #include "core/slip/slip_ratio.h"
 #include "evaluation/truth_gate.h"
 #include "slipnav/core/base/rotation.h"
+#include "slipnav/core/ekf/engine/filter_history.h"
 
 namespace slipnav {
 namespace {
@@ -38,6 +39,11 @@ OfflineRun::OfflineRun(const Config& config, bool with_baselines)
     without_zupt_ = std::make_unique<OfflineRun>(withoutZeroUpdates(config), false);
     forecasts_.emplace(config);
   }
+}
+
+void OfflineRun::smoothAfterwards() {
+  history_ = std::make_shared<FilterHistory>(planet_);
+  pipeline_.keepHistory(history_);
 }
 
 void OfflineRun::push(const ImuSample& sample) {
@@ -138,23 +144,64 @@ void OfflineRun::startWheelOnly(const Output& out) {
   earlier_speeds_.clear();
 }
 
-TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment, MetricsInput& input) const {
+TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment, const EstimateTrack& estimates,
+                                  MetricsInput& input) const {
   const TruthTrack whole =
       truth_poses_.empty() ? TruthTrack::fromFixes(truth_fixes_, output_->frame()) : TruthTrack(truth_poses_);
   if (whole.empty()) {
     return whole;
   }
-  requireTimeInCommon(whole, estimates_);
+  requireTimeInCommon(whole, estimates);
   TruthTrack truth = withoutJumps(whole);
   input.truth_left_out = static_cast<std::int64_t>(whole.samples().size() - truth.samples().size());
   if (alignment.at_start) {
-    truth = alignAtStart(truth, estimates_, *alignment.at_start);
+    truth = alignAtStart(truth, estimates, *alignment.at_start);
   }
   const Vector3 lever_flu(config_.truth_mount.x_m, config_.truth_mount.y_m, config_.truth_mount.z_m);
   if (!lever_flu.isZero()) {
-    truth = removeLeverArm(truth, estimates_, lever_flu);
+    truth = removeLeverArm(truth, estimates, lever_flu);
   }
-  return alignment.heading_distance_m ? alignHeading(truth, estimates_, *alignment.heading_distance_m) : truth;
+  return alignment.heading_distance_m ? alignHeading(truth, estimates, *alignment.heading_distance_m) : truth;
+}
+
+/// Slip is that of the smoothed speed against the wheels' speed in the last interval.
+EstimateTrack OfflineRun::smoothedTrack() const {
+  EstimateTrack track;
+  auto filtered = estimates_.begin();
+  auto wheels = filter_rows_.rows().begin();
+  double wheel_speed_mps = 0.0;
+  for (const SmoothedState& epoch : history_->smooth()) {
+    const Nanoseconds stamp = epoch.nav.stamp;
+    filtered = std::find_if(filtered, estimates_.end(), [stamp](const auto& e) { return e.stamp >= stamp; });
+    for (; wheels != filter_rows_.rows().end() && wheels->stamp <= stamp; ++wheels) {
+      wheel_speed_mps = wheels->wheel_speed_mps;
+    }
+    Estimate estimate;
+    estimate.nav = epoch.nav;
+    estimate.vehicle = epoch.vehicle;
+    estimate.omega_ib_b = epoch.omega_ib_b;
+    const Output out = output_->make(estimate, epoch.P);
+    const double speed_mps = out.velocity_flu_mps.x();
+    const bool stationary = filtered != estimates_.end() && filtered->stationary;
+    track.push_back({stamp, out.position_enu_m, out.pose_covariance.topLeftCorner<3, 3>(), out.q_flu_to_enu, speed_mps,
+                     stationary ? std::nullopt : slipRatio(speed_mps, wheel_speed_mps, kSlowestSpeedForSlip_mps),
+                     stationary});
+  }
+  return track;
+}
+
+/// Truth that is aligned to an estimate is aligned to this one.
+SmoothedRun OfflineRun::smoothed(const TruthAlignment& alignment, const MetricsInput& filtered) const {
+  SmoothedRun run;
+  MetricsInput input;
+  run.estimates = smoothedTrack();
+  run.truth = truthTrack(alignment, run.estimates, input);
+  input.estimates = run.estimates;
+  input.truth = run.truth;
+  input.stops = filtered.stops;
+  input.uses_stops = filtered.uses_stops;
+  run.metrics = computeMetrics(input);
+  return run;
 }
 
 RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
@@ -164,7 +211,7 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
   RunReport report;
   MetricsInput input;
   report.estimates = estimates_;
-  report.truth = truthTrack(alignment, input);
+  report.truth = truthTrack(alignment, estimates_, input);
   input.estimates = estimates_;
   input.truth = report.truth;
   input.wheel_only = wheel_only_->track();
@@ -190,6 +237,9 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
   report.metrics.alarms = pipeline_.health().alarms();
   report.diagnostics.filter = filter_rows_.rows();
   report.diagnostics.wheel_only = input.wheel_only;
+  if (history_) {
+    report.smoothed = smoothed(alignment, input);
+  }
   return report;
 }
 

@@ -2,6 +2,7 @@
 /// A whole drive through the navigation as fast as it goes, and what there is to say about it afterwards.
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,6 +24,9 @@ class OfflineRun {
  public:
   /// @param with_baselines also run the pipeline without zero updates, for no_zupt_error_pct
   OfflineRun(const Config& config, bool with_baselines);
+
+  /// Smooths the drive when it is over; before the first sample.
+  void smoothAfterwards();
 
   /// Who else is to have every estimate, as soon as there is one.
   void onEstimate(FilterEngine::EstimateSink sink) { on_estimate_ = std::move(sink); }
@@ -52,7 +56,9 @@ class OfflineRun {
  private:
   void record(const Estimate& estimate, const ErrorCovariance& P);
   void startWheelOnly(const Output& out);
-  TruthTrack truthTrack(const TruthAlignment& alignment, MetricsInput& input) const;
+  TruthTrack truthTrack(const TruthAlignment& alignment, const EstimateTrack& estimates, MetricsInput& input) const;
+  EstimateTrack smoothedTrack() const;
+  SmoothedRun smoothed(const TruthAlignment& alignment, const MetricsInput& filtered) const;
   std::optional<double> slipOf(const Estimate& estimate) const;
 
   Config config_;
@@ -62,6 +68,7 @@ class OfflineRun {
   FilterEngine::EstimateSink on_estimate_;
   ForecastRecorder::Sink on_forecast_;
   std::optional<OutputMaker> output_;
+  std::shared_ptr<FilterHistory> history_;  ///< where the drive is to be smoothed
   EstimateTrack estimates_;
   FilterRecorder filter_rows_;
   StopLedger stops_;

@@ -67,14 +67,7 @@ std::string tableLine(const std::string& name, CellOf cellOf) {
   return line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
 }
 
-}  // namespace
-
-std::string metricsJson(const Metrics& metrics) {
-  JsonObject json;
-  json.addNumber("distance_m", metrics.distance_m);
-  json.addNumber("duration_s", metrics.duration_s);
-  json.addCount("stop_count", metrics.stop_count);
-  json.addNumber("stop_rate_pct", metrics.stop_rate_pct);
+void addErrors(const Metrics& metrics, JsonObject& json) {
   json.addNumber("enu_error_pct", metrics.enu_error_pct);
   json.addNumber("median_error_pct", metrics.median_error_pct);
   json.addNumber("horizontal_median_m", metrics.horizontal_median_m);
@@ -86,6 +79,39 @@ std::string metricsJson(const Metrics& metrics) {
   json.addNumber("rms_up_m", metrics.rms_up_m);
   json.addNumber("position_nees_mean", metrics.position_nees_mean);
   json.addNumber("coverage_3sigma_pct", metrics.coverage_3sigma_pct);
+}
+
+/// Writes the file, or removes that of an earlier run where there is nothing to write.
+void writeTumOrRemove(const std::string& path, const std::vector<TumPose>& poses) {
+  if (poses.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(path, ignored);
+  } else {
+    writeTum(path, poses);
+  }
+}
+
+void writeSmoothed(const std::filesystem::path& folder, const std::optional<SmoothedRun>& smoothed) {
+  const std::string timeline = (folder / "smoothed.csv").string();
+  writeTumOrRemove((folder / "smoothed.tum").string(),
+                   smoothed ? tumPoses(smoothed->estimates) : std::vector<TumPose>{});
+  if (smoothed) {
+    writeTimelineCsv(timeline, smoothed->estimates, smoothed->truth);
+  } else {
+    std::error_code ignored;
+    std::filesystem::remove(timeline, ignored);
+  }
+}
+
+}  // namespace
+
+std::string metricsJson(const Metrics& metrics, const Metrics* smoothed) {
+  JsonObject json;
+  json.addNumber("distance_m", metrics.distance_m);
+  json.addNumber("duration_s", metrics.duration_s);
+  json.addCount("stop_count", metrics.stop_count);
+  json.addNumber("stop_rate_pct", metrics.stop_rate_pct);
+  addErrors(metrics, json);
   json.addNumber("wheel_only_error_pct", metrics.wheel_only_error_pct);
   json.addNumber("no_zupt_error_pct", metrics.no_zupt_error_pct);
   json.addCount("imu_samples", metrics.imu_samples);
@@ -103,12 +129,18 @@ std::string metricsJson(const Metrics& metrics) {
   json.addText("verdict", metrics.verdict);
   json.addAlarms("problems", metrics.problems);
   json.addAlarms("alarms", metrics.alarms);
+  if (smoothed != nullptr) {
+    JsonObject errors;
+    addErrors(*smoothed, errors);
+    errors.addNumber("final_pct", smoothed->final_pct);
+    json.addObject("smoothed", errors);
+  }
   return json.text();
 }
 
-void writeMetricsJson(const std::string& path, const Metrics& metrics) {
+void writeMetricsJson(const std::string& path, const Metrics& metrics, const Metrics* smoothed) {
   AtomicFile file(path);
-  file.stream() << metricsJson(metrics);
+  file.stream() << metricsJson(metrics, smoothed);
   file.commit();
 }
 
@@ -142,21 +174,16 @@ void writeForecastsCsv(const std::string& path, const std::vector<ForecastRow>& 
 void writeRunReport(const std::string& directory, const RunReport& report) {
   createDirectories(directory);
   const std::filesystem::path folder(directory);
-  const std::string truth_path = (folder / "truth.tum").string();
   writeTum((folder / "estimate.tum").string(), tumPoses(report.estimates));
-  if (report.truth.empty()) {
-    std::error_code ignored;
-    std::filesystem::remove(truth_path, ignored);
-  } else {
-    writeTum(truth_path, tumPoses(report.truth));
-  }
+  writeTumOrRemove((folder / "truth.tum").string(), tumPoses(report.truth));
+  writeSmoothed(folder, report.smoothed);
   writeTimelineCsv((folder / "timeline.csv").string(), report.estimates, report.truth);
   writeForecastsCsv((folder / "forecasts.csv").string(), report.forecasts);
   writeFilterCsv((folder / "filter.csv").string(), report.diagnostics.filter);
   writeWheelTrackCsv((folder / "wheel_track.csv").string(), report.diagnostics.wheel_only);
   writeSlipForecastsCsv((folder / "slip_forecasts.csv").string(), report.diagnostics.slip_forecasts);
   writeNeesCsv((folder / "nees.csv").string(), report.estimates, report.truth);
-  writeMetricsJson((folder / "metrics.json").string(), report.metrics);
+  writeMetricsJson((folder / "metrics.json").string(), report.metrics, report.smoothedMetrics());
 }
 
 std::string tableHeader() {
@@ -179,6 +206,11 @@ std::string tableRow(const std::string& name, std::optional<double> threshold_m,
                                                                      metrics.rms_north_m,
                                                                      metrics.rms_up_m};
   return tableLine(name, [&values](std::size_t i) { return cell(values[i], kColumns[i].decimals); });
+}
+
+std::string tableRows(const std::string& name, std::optional<double> threshold_m, const RunReport& report) {
+  const std::string row = tableRow(name, threshold_m, report.metrics);
+  return report.smoothed ? row + tableRow(name + " (smoothed)", threshold_m, report.smoothed->metrics) : row;
 }
 
 }  // namespace slipnav

@@ -25,16 +25,24 @@ struct ForecastRow {
   std::optional<double> time_to_stop_s;  ///< of the whole forecast; none when the threshold is not reached
 };
 
-/// `metrics.json`: one object, keys in the order of the struct Metrics.
-std::string metricsJson(const Metrics& metrics);
-void writeMetricsJson(const std::string& path, const Metrics& metrics);
+/// `metrics.json`: one object, keys in the order of the struct Metrics. Last in it, of a drive that was smoothed,
+/// `smoothed`: the errors of that, under the same keys.
+std::string metricsJson(const Metrics& metrics, const Metrics* smoothed = nullptr);
+void writeMetricsJson(const std::string& path, const Metrics& metrics, const Metrics* smoothed = nullptr);
 
-/// `timeline.csv`: t, est_e, est_n, est_u, sigma_e, sigma_n, sigma_u, truth_e, truth_n, truth_u, speed, slip,
-/// stationary; one row per estimate, truth interpolated, t in UNIX seconds.
+/// `timeline.csv`, `smoothed.csv`: t, est_e, est_n, est_u, sigma_e, sigma_n, sigma_u, truth_e, truth_n, truth_u, speed,
+/// slip, stationary; one row per estimate, truth interpolated, t in UNIX seconds.
 void writeTimelineCsv(const std::string& path, const EstimateTrack& estimates, const TruthTrack& truth);
 
 /// `forecasts.csv`: t, horizon_s, horizontal_bound_m, time_to_stop_s.
 void writeForecastsCsv(const std::string& path, const std::vector<ForecastRow>& forecasts);
+
+/// The drive as all of its measurements together say it, see FilterHistory; ten epochs a second.
+struct SmoothedRun {
+  EstimateTrack estimates;
+  TruthTrack truth;  ///< aligned to these estimates, where it is aligned at all
+  Metrics metrics;   ///< errors, consistency and stops; no counters
+};
 
 /// All that a run leaves in its output directory.
 struct RunReport {
@@ -43,10 +51,15 @@ struct RunReport {
   TruthTrack truth;
   std::vector<ForecastRow> forecasts;
   RunDiagnostics diagnostics;
+  std::optional<SmoothedRun> smoothed;
+
+  /// Of `smoothed`, where there is one.
+  const Metrics* smoothedMetrics() const { return smoothed ? &smoothed->metrics : nullptr; }
 };
 
 /// Creates the directory where it is missing and writes metrics.json, timeline.csv, forecasts.csv, estimate.tum, the
-/// files of run_diagnostics.h and, with truth, truth.tum (a truth.tum of an earlier run is removed without).
+/// files of run_diagnostics.h; with truth, truth.tum; of a drive that was smoothed, smoothed.csv and smoothed.tum
+/// (those of an earlier run are removed where this one has none).
 void writeRunReport(const std::string& directory, const RunReport& report);
 
 /// The columns of the paper's Table I, in one row of two header lines: name, Σ_D, ε, stops, Σ_T, ENU and median error,
@@ -54,5 +67,7 @@ void writeRunReport(const std::string& directory, const RunReport& report);
 std::string tableHeader();
 /// The row under it. `-` stands for what is not known.
 std::string tableRow(const std::string& name, std::optional<double> threshold_m, const Metrics& metrics);
+/// That of the run, and below it `NAME (smoothed)` where it was smoothed.
+std::string tableRows(const std::string& name, std::optional<double> threshold_m, const RunReport& report);
 
 }  // namespace slipnav

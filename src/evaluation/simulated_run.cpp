@@ -72,8 +72,11 @@ SimulationFigures SimulatedRun::figures() const {
 }
 
 SimulationReport simulateAndMeasure(const Config& config, StopPolicy& policy, const DriveSink& recorder,
-                                    bool with_baselines) {
+                                    bool with_baselines, bool smooth) {
   SimulatedRun run(config, with_baselines);
+  if (smooth) {
+    run.smoothAfterwards();
+  }
   run.onEstimate([&config, &policy](const Estimate& estimate, const ErrorCovariance& P) {
     policy.observe(observationOf(estimate, P, config.stationary.wheel_speed_mps));
   });

@@ -16,6 +16,9 @@ class SimulatedRun {
   /// @param with_baselines also without zero updates, and with forecasts
   explicit SimulatedRun(const Config& config, bool with_baselines = true);
 
+  /// Smooths the drive when it is over; before the first interval.
+  void smoothAfterwards() { run_.smoothAfterwards(); }
+
   /// Who is to have every estimate, as soon as there is one.
   void onEstimate(FilterEngine::EstimateSink sink) { on_estimate_ = std::move(sink); }
 
@@ -66,7 +69,8 @@ struct SimulationReport {
 /// Drives with a policy that is given the estimates as they come, from begin to end.
 /// @param recorder what else is to be done with each interval
 /// @param with_baselines see SimulatedRun; forecasts come only with them
+/// @param smooth also run it backwards
 SimulationReport simulateAndMeasure(const Config& config, StopPolicy& policy, const DriveSink& recorder = {},
-                                    bool with_baselines = true);
+                                    bool with_baselines = true, bool smooth = false);
 
 }  // namespace slipnav

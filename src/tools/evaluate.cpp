@@ -21,6 +21,7 @@ CommandLine commandLine() {
               "truth/fix, truth/odometry, truth/pose that it has")
       .option("out", "DIR", "where metrics.json, timeline.csv, forecasts.csv, estimate.tum, truth.tum go")
       .option("odometry", "FILE", "every message of `odometry` as bytes, to compare runs with")
+      .flag("smooth", "run the drive backwards too: a second row, and smoothed.csv and smoothed.tum beside the others")
       .flag("report", "plots into the same place");
   slipnav::declareConfigOptions(command_line);
   return command_line;
@@ -44,7 +45,7 @@ void printFindings(const slipnav::BagEvaluation& evaluation) {
 /// Also a run without a start leaves behind what was wrong.
 slipnav::BagEvaluation evaluated(const std::string& bag, const slipnav::Config& config, const Arguments& arguments) {
   try {
-    return slipnav::evaluateBag(bag, config, arguments.text("truth"), {});
+    return slipnav::evaluateBag(bag, config, arguments.text("truth"), {}, arguments.given("smooth"));
   } catch (const slipnav::NoStart& failure) {
     printFindings(failure.evaluation());
     if (arguments.given("out")) {
@@ -76,8 +77,7 @@ int run(int argc, char** argv) {
   if (arguments.given("report")) {
     slipnav::plotReport(arguments.text("out"));
   }
-  std::cout << slipnav::tableHeader()
-            << slipnav::tableRow(slipnav::runName(bag), std::nullopt, evaluation.report.metrics)
+  std::cout << slipnav::tableHeader() << slipnav::tableRows(slipnav::runName(bag), std::nullopt, evaluation.report)
             << slipnav::runName(bag) << ": " << evaluation.report.metrics.verdict << '\n';
   return 0;
 }

@@ -43,6 +43,7 @@ CommandLine commandLine() {
       .option("figures", "FILE",
               "metrics and simulation figures as one JSON object; without --out no baselines are run")
       .option("bag", "FILE", "record the sensors and the truth, as a robot would")
+      .flag("smooth", "run the drive backwards too: a second row, and smoothed.csv and smoothed.tum beside the others")
       .flag("report", "plots into the output directory");
   slipnav::declareConfigOptions(command_line);
   return command_line;
@@ -76,9 +77,9 @@ Config configuration(const Arguments& arguments) {
 
 /// Drives, navigates and records; returns what there is to say about it.
 slipnav::SimulationReport drive(const Config& config, slipnav::StopPolicy& policy, const std::string& bag,
-                                bool with_baselines) {
+                                bool with_baselines, bool smooth) {
   if (bag.empty()) {
-    return slipnav::simulateAndMeasure(config, policy, {}, with_baselines);
+    return slipnav::simulateAndMeasure(config, policy, {}, with_baselines, smooth);
   }
   slipnav::BagWriter recorder(bag, config);
   const slipnav::SimulationReport report = slipnav::simulateAndMeasure(
@@ -86,7 +87,7 @@ slipnav::SimulationReport drive(const Config& config, slipnav::StopPolicy& polic
       [&recorder](const slipnav::sim::Measurements& measurements, const slipnav::sim::TruthState& truth) {
         recorder.write(measurements, truth);
       },
-      with_baselines);
+      with_baselines, smooth);
   recorder.close();
   return report;
 }
@@ -114,7 +115,7 @@ void writeFiles(const Arguments& arguments, const slipnav::SimulationReport& rep
   }
   if (arguments.given("figures")) {
     slipnav::AtomicFile file(arguments.text("figures"));
-    file.stream() << "{\"metrics\": " << slipnav::metricsJson(report.run.metrics)
+    file.stream() << "{\"metrics\": " << slipnav::metricsJson(report.run.metrics, report.run.smoothedMetrics())
                   << ", \"simulation\": " << slipnav::figuresJson(report.figures) << "}\n";
     file.commit();
   }
@@ -139,7 +140,8 @@ int run(int argc, char** argv) {
   const auto wall = std::chrono::steady_clock::now();
   const bool autonomous = arguments.text("policy") == "autonomous";
   const bool with_baselines = autonomous || arguments.given("out") || !arguments.given("figures");
-  slipnav::SimulationReport report = drive(config, *policy, arguments.text("bag"), with_baselines);
+  slipnav::SimulationReport report =
+      drive(config, *policy, arguments.text("bag"), with_baselines, arguments.given("smooth"));
   slipnav::Metrics& metrics = report.run.metrics;
   metrics.cpu_s = static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC;
   metrics.realtime_factor =
@@ -148,7 +150,8 @@ int run(int argc, char** argv) {
   const std::string name =
       arguments.text(arguments.given("world") ? "world" : "terrain") + " " + arguments.text("seed");
   std::cout << slipnav::tableHeader()
-            << slipnav::tableRow(name, autonomous ? std::optional(config.forecast.threshold_m) : std::nullopt, metrics);
+            << slipnav::tableRows(name, autonomous ? std::optional(config.forecast.threshold_m) : std::nullopt,
+                                  report.run);
   return 0;
 }
 

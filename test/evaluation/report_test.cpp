@@ -130,6 +130,31 @@ TEST_F(Report, leavesAllFilesAndNothingElse) {
                                       "slip_forecasts.csv", "timeline.csv", "wheel_track.csv"}));
 }
 
+TEST_F(Report, writesTheSmoothedDriveAndRemovesThatOfAnEarlierRun) {
+  RunReport report = smallReport();
+  SmoothedRun smoothed;
+  smoothed.estimates = {report.estimates[0]};
+  smoothed.estimates[0].position_enu_m.x() = 1.25;
+  smoothed.truth = report.truth;
+  smoothed.metrics.rms_east_m = 0.25;
+  report.smoothed = smoothed;
+  writeRunReport(folder_, report);
+  EXPECT_EQ(contentOf("smoothed.csv"),
+            "t,est_e,est_n,est_u,sigma_e,sigma_n,sigma_u,truth_e,truth_n,truth_u,speed,slip,stationary\n"
+            "1602774000.500000000,1.25,2.5,-0.25,0.5,2,3,1,2,3,0.75,0.125,0\n");
+  EXPECT_EQ(contentOf("smoothed.tum").substr(0, 32), "1602774000.500000000 1.250000000");
+  const std::string json = contentOf("metrics.json");
+  const std::size_t object = json.find("\n  \"smoothed\": {\n    \"enu_error_pct\": null,\n");
+  ASSERT_NE(object, std::string::npos);
+  EXPECT_NE(json.find("\n    \"rms_east_m\": 0.25,\n", object), std::string::npos);
+  EXPECT_EQ(json.substr(json.find("final_pct", object)), "final_pct\": null\n  }\n}\n");
+  writeRunReport(folder_, smallReport());
+  const std::vector<std::string> files = filesInFolder();
+  EXPECT_EQ(std::count_if(files.begin(), files.end(), [](const auto& name) { return name.rfind("smoothed", 0) == 0; }),
+            0);
+  EXPECT_EQ(contentOf("metrics.json").find("smoothed"), std::string::npos);
+}
+
 TEST_F(Report, namesADirectoryItCannotCreate) {
   fs::create_directories(fs::path(folder_).parent_path());
   std::ofstream(folder_) << "a file stands in the way";
@@ -265,6 +290,16 @@ TEST(Table, alignsTheRowWithItsHeader) {
 TEST(Table, showsWhatIsNotKnown) {
   const std::string row = tableRow("no truth", std::nullopt, Metrics());
   EXPECT_NE(row.find("no truth                    -        -        0        0        -"), std::string::npos) << row;
+}
+
+TEST(Table, hasASecondRowForTheSmoothedDrive) {
+  RunReport report;
+  report.metrics.rms_up_m = 2.0;
+  EXPECT_EQ(tableRows("Test1", 5.0, report), tableRow("Test1", 5.0, report.metrics));
+  report.smoothed.emplace();
+  report.smoothed->metrics.rms_up_m = 1.0;
+  EXPECT_EQ(tableRows("Test1", 5.0, report),
+            tableRow("Test1", 5.0, report.metrics) + tableRow("Test1 (smoothed)", 5.0, report.smoothed->metrics));
 }
 
 }  // namespace

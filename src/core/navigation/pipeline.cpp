@@ -18,10 +18,16 @@ void Pipeline::onInnovation(const InnovationSink& sink) {
   navigator_.onInnovation(sink);
 }
 
+void Pipeline::keepHistory(const std::shared_ptr<FilterHistory>& history) {
+  history_ = history;
+  navigator_.keepHistory(history);
+}
+
 void Pipeline::restart() {
   initializer_.reset();
   navigator_ = Navigator(planet_, setup_.imu_input, setup_.filter);
   navigator_.onInnovation(on_innovation_);
+  navigator_.keepHistory(history_);
   initial_.reset();
   health_.restart();
   ++counts_.restarts;

@@ -155,12 +155,15 @@ void finish(const OfflineRun& run, const TruthAlignment& alignment, BagEvaluatio
 }  // namespace
 
 BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
-                          const BagRange& range) {
+                          const BagRange& range, bool smooth) {
   const Stopwatch stopwatch;
   const bool truth_from_file = isRtklibFile(truth);
   const BagReader reader(path, config, truth_from_file ? "" : truth, range);
   BagEvaluation evaluation;
   OfflineRun run(reader.config(), true);
+  if (smooth) {
+    run.smoothAfterwards();
+  }
   run.onOutput([&evaluation, &reader](const Output& output) {
     nav_msgs::Odometry message;
     fill(output, reader.config().frames, message);

@@ -35,9 +35,10 @@ class NoStart : public std::runtime_error {
 
 /// @param range the part of the recording to use
 /// @param truth topic or RTKLIB file (.pos) of the truth; "" for what the recording has, see BagReader
+/// @param smooth also run it backwards
 /// Throws std::invalid_argument for a recording that cannot be used, NoStart when no start could be found.
 BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
-                          const BagRange& range);
+                          const BagRange& range, bool smooth = false);
 
 /// The report with other estimates of the same drive in the place of its own; errors, stops and times become theirs.
 /// @param wall_s what it took to make them [s]

@@ -1,6 +1,7 @@
 #pragma once
 /// Mechanisation and filter coupled in one thread: what the nodelets do between them, for everything that runs offline.
 
+#include <memory>
 #include <utility>
 
 #include "slipnav/core/ekf/engine/filter_engine.h"
@@ -17,6 +18,7 @@ class Navigator {
   void initialise(const InitialState& initial);
   /// See FilterEngine.
   void onInnovation(InnovationSink sink) { filter_.onInnovation(std::move(sink)); }
+  void keepHistory(std::shared_ptr<FilterHistory> history) { filter_.keepHistory(std::move(history)); }
   bool isInitialised() const { return filter_.isInitialised(); }
 
   /// Each takes a sample and works off what has become certain by it.

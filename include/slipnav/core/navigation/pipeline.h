@@ -2,6 +2,7 @@
 /// From samples in core axes to estimates: initialisation, mechanisation and filter in one object, for offline use.
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "slipnav/core/navigation/health.h"
@@ -35,6 +36,9 @@ class Pipeline {
   /// Tells `sink` of every innovation of the filter from now on.
   void onInnovation(const InnovationSink& sink);
 
+  /// What is needed to smooth the drive goes into `history`; before the first sample.
+  void keepHistory(const std::shared_ptr<FilterHistory>& history);
+
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
   /// Satellite position or velocity; once the initialisation has ended, positions with `gnss.use: always` alone.
@@ -64,6 +68,7 @@ class Pipeline {
   SampleCounts counts_;
   HealthMonitor health_;
   InnovationSink on_innovation_;
+  std::shared_ptr<FilterHistory> history_;
 };
 
 }  // namespace slipnav

@@ -8,6 +8,7 @@
 
 #include "core/base/square.h"
 #include "slipnav/core/base/rotation.h"
+#include "slipnav/core/ekf/engine/filter_history.h"
 
 namespace slipnav {
 namespace {
@@ -93,6 +94,9 @@ void FilterEngine::initialise(const InitialState& initial) {
   }
   fix_cadence_.restart(initial.nav.stamp);
   used_fix_ = 0;
+  if (history_) {
+    history_->begin(P_);
+  }
 }
 
 void FilterEngine::push(const InsStep& step) {
@@ -127,7 +131,7 @@ Correction FilterEngine::place(const Placement& placement) {
   }
   state_.position = position;
   for (int axis = 0; axis < 3; ++axis) {
-    forgetError(kPosition + axis, square(placement.position_std_m), P_);
+    forget(kPosition + axis, square(placement.position_std_m));
   }
   if (placement.heading_rad) {
     turnTo(*placement.heading_rad, placement.heading_std_rad);
@@ -157,7 +161,7 @@ void FilterEngine::turnTo(double heading_rad, double heading_std_rad) {
   const Quaternion turn(Eigen::AngleAxisd(heading_rad - eulerFrom_q_b_to_n(state_.q_b_to_n).z(), Vector3::UnitZ()));
   state_.q_b_to_n = (turn * state_.q_b_to_n).normalized();
   state_.v_eb_n = turn * state_.v_eb_n;
-  forgetError(kAttitude + 2, square(heading_std_rad), P_);
+  forget(kAttitude + 2, square(heading_std_rad));
   P_.diagonal().segment<2>(kVelocity).array() += square(heading_std_rad) * state_.v_eb_n.head<2>().squaredNorm();
 }
 
@@ -208,6 +212,9 @@ std::optional<Correction> FilterEngine::advance(const EstimateSink& sink) {
     estimate_.f_ib_b = step.f_ib_b;
     estimate_.omega_ib_b = step.omega_ib_b;
     ++next_sequence_;
+    if (history_) {
+      history_->endStep(state_, vehicle_, step.omega_ib_b, P_);
+    }
     sink(estimate_, P_);
     if (by_wheels || by_fixes) {
       steps_.clear();
@@ -225,6 +232,9 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   adaptation_.addNoise(dynamics_, step, step.state, shownSlip(vehicle_.slow_slip, P_(kSlowSlip, kSlowSlip)),
                        surface_speed_mps_ * duration_s, transition_);
   ErrorDynamics::propagate(transition_, P_);
+  if (history_) {
+    history_->propagate(transition_);
+  }
   average_.propagate(transition_);
   constraint_average_.propagate(transition_);
   ErrorDynamics::decay(transition_, vehicle_);
@@ -258,8 +268,15 @@ Vector3 FilterEngine::referenceVelocity(const InsStep& step) const {
 /// What was known of a slip impulse is void after a gap: were it kept, the wheels could say nothing about the speed,
 /// and the tilt, unknown now, would turn into speed before it is seen.
 void FilterEngine::forgetSlipImpulse() {
-  forgetError(kFastSlip, dynamics_.priorVariance()(kFastSlip), P_);
+  forget(kFastSlip, dynamics_.priorVariance()(kFastSlip));
   vehicle_.fast_slip = 0.0;
+}
+
+void FilterEngine::forget(int index, double variance) {
+  forgetError(index, variance, P_);
+  if (history_) {
+    history_->forget(index);
+  }
 }
 
 bool FilterEngine::applyFixes(const InsStep& step) {
@@ -295,12 +312,19 @@ void FilterEngine::addFix(const PositionFix& fix, MeasurementSet& set) const {
 }
 
 bool FilterEngine::update(MeasurementSet set) {
-  const std::optional<ErrorVector> error = update_.apply(set, state_.stamp, P_);
-  if (!error) {
-    return false;
+  const std::optional<Measurement> passed = update_.select(set, state_.stamp, P_);
+  return passed && use(*passed);
+}
+
+bool FilterEngine::use(const Measurement& measurement) {
+  if (history_) {
+    history_->advance(P_);
   }
-  take(*error);
-  return true;
+  const std::optional<ErrorVector> error = kalmanUpdate(measurement, P_);
+  if (error) {
+    take(*error);
+  }
+  return error.has_value();
 }
 
 void FilterEngine::take(const ErrorVector& error) {
@@ -309,6 +333,9 @@ void FilterEngine::take(const ErrorVector& error) {
   subtractError(error, vehicle_);
   average_.correct(error, reset);
   constraint_average_.correct(error, reset);
+  if (history_) {
+    history_->correct(error, reset, P_);
+  }
 }
 
 }  // namespace slipnav

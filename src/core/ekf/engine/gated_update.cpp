@@ -68,7 +68,7 @@ bool GatedUpdate::passes(MeasurementSet::Block& block, Nanoseconds stamp, ErrorC
   return false;
 }
 
-std::optional<ErrorVector> GatedUpdate::apply(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P) {
+std::optional<Measurement> GatedUpdate::select(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P) {
   std::array<bool, 4> passed = {};
   int rows = 0;
   for (std::size_t i = 0; i < set.size(); ++i) {
@@ -91,7 +91,7 @@ std::optional<ErrorVector> GatedUpdate::apply(MeasurementSet& set, Nanoseconds s
     stacked.variance.segment(row, n) = set[i].variance_factor * m.variance;
     row += n;
   }
-  return kalmanUpdate(stacked, P);
+  return stacked;
 }
 
 }  // namespace slipnav

@@ -178,9 +178,7 @@ void FilterEngine::condition(int state, double variance, double value, double& e
     m.residual(0) = -value;
     m.H(0, state) = 1.0;
     m.variance(0) = 1.0 / (1.0 / envelope - 1.0 / P_(state, state));
-    if (const auto error = kalmanUpdate(m, P_)) {
-      take(*error);
-    }
+    use(m);
   }
 }
 

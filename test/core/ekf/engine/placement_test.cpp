@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <memory>
 #include <stdexcept>
 
 #include "recorded_drive.h"
 #include "slipnav/core/base/rotation.h"
 #include "slipnav/core/ekf/engine/filter_engine.h"
+#include "slipnav/core/ekf/engine/filter_history.h"
 
 namespace slipnav::test {
 namespace {
@@ -91,6 +94,47 @@ TEST_F(PlacementTest, ImpossibleOnesAreRefused) {
   wrong.heading_rad = 0.0;
   EXPECT_THROW(filter_.place(wrong), std::invalid_argument);
   EXPECT_NO_THROW(filter_.place(placement()));
+}
+
+/// Somebody has carried the rover away: a fix that follows says nothing of where it has been.
+TEST_F(PlacementTest, ASmootherTakesNothingOfItIntoThePast) {
+  const auto history = std::make_shared<FilterHistory>(Planet::byName("earth"));
+  filter_.keepHistory(history);
+  filter_.initialise(drive_.initial);
+  InsEngine ins(Planet::byName("earth"), setup_.imu_input);
+  ins.initialise(drive_.initial.nav);
+  std::map<Nanoseconds, ErrorCovariance> filtered;
+  Nanoseconds placed = 0;
+  for (const DriveSample& sample : drive_.samples) {
+    if (!sample.is_imu) {
+      continue;
+    }
+    ins.push(sample.imu);
+    while (const std::optional<InsStep> step = ins.step()) {
+      filter_.push(*step);
+    }
+    const std::optional<Correction> correction = filter_.advance(
+        [&filtered](const Estimate& estimate, const ErrorCovariance& P) { filtered[estimate.nav.stamp] = P; });
+    if (correction) {
+      ins.correct(*correction);
+    }
+    if (placed == 0 && sample.stamp() - drive_.initial.nav.stamp > 6 * kSecond) {
+      placed = filter_.state().stamp;
+      ins.correct(filter_.place(placement()));
+      filter_.push(PositionFix{placed + 1, filter_.state().position, Vector3::Constant(1e-4)});
+    }
+  }
+  const std::vector<SmoothedState> epochs = history->smooth();
+  ASSERT_GT(epochs.back().nav.stamp, placed + kSecond);
+  ASSERT_EQ(filter_.status(kFixPosition).accepted, 1U);
+  for (const SmoothedState& epoch : epochs) {
+    if (epoch.nav.stamp > placed) {
+      break;
+    }
+    const ErrorCovariance& P = filtered.at(epoch.nav.stamp);
+    const ErrorVector weight = P.diagonal().cwiseSqrt().cwiseInverse();
+    EXPECT_LT((weight.asDiagonal() * (epoch.P - P) * weight.asDiagonal()).cwiseAbs().maxCoeff(), 1e-3);
+  }
 }
 
 }  // namespace

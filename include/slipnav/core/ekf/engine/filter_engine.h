@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -34,6 +35,8 @@
 
 namespace slipnav {
 
+class FilterHistory;
+
 /// Single-threaded; nothing is allocated once its queues have their size.
 class FilterEngine {
  public:
@@ -53,6 +56,9 @@ class FilterEngine {
 
   /// Tells `sink` of every innovation from now on.
   void onInnovation(InnovationSink sink) { on_innovation_ = std::move(sink); }
+
+  /// Tells `history` of everything from the next start on, for a smoother. It changes no bit of the estimate.
+  void keepHistory(std::shared_ptr<FilterHistory> history) { history_ = std::move(history); }
 
   /// Takes a step; one of an old epoch, or out of sequence, is ignored.
   void push(const InsStep& step);
@@ -124,6 +130,8 @@ class FilterEngine {
   void addFix(const PositionFix& fix, MeasurementSet& set) const;
   PlanarMotion soundMotion(const WheelMotion& wheels) const;
   bool update(MeasurementSet set);
+  bool use(const Measurement& measurement);
+  void forget(int index, double variance);
   void take(const ErrorVector& error);
   void conditionOnGround();
   void condition(int state, double variance, double value, double& envelope);
@@ -172,6 +180,7 @@ class FilterEngine {
   MeanMotion constraint_average_;   ///< over the wheel intervals since the last constraint
   Estimate estimate_;
   InnovationSink on_innovation_;
+  std::shared_ptr<FilterHistory> history_;  ///< where nobody smooths: none
 };
 
 }  // namespace slipnav

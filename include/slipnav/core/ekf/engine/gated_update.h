@@ -1,5 +1,5 @@
 #pragma once
-/// Several measurements of one instant: each passes its own gate, all that pass update the state together.
+/// Several measurements of one instant: each passes its own gate, all that pass are to update the state together.
 
 #include <array>
 #include <optional>
@@ -41,8 +41,9 @@ class GatedUpdate {
   /// Other gates from now on; what has been counted stays.
   void retune(const FilterParams& params);
 
-  /// @return the estimated error when at least one measurement passed; P is updated then, and untouched otherwise
-  std::optional<ErrorVector> apply(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P);
+  /// @return those that passed, one below the other; nothing where none did. P is opened for what has contradicted for
+  /// long, and untouched otherwise.
+  std::optional<Measurement> select(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P);
 
   /// Of the normalised innovation squared of so many rows.
   double gate(int rows) const { return gate_[static_cast<std::size_t>(rows)]; }
