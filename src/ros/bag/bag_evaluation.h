@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config/config.h"
 #include "evaluation/report.h"
@@ -37,6 +38,9 @@ class NoStart : public std::runtime_error {
 /// @param truth topic or RTKLIB file (.pos) of the truth; "" for what the recording has, see BagReader
 /// Throws std::invalid_argument for a recording that cannot be used, NoStart when no start could be found.
 BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
+                          const BagRange& range);
+/// @param paths the parts of one recording
+BagEvaluation evaluateBag(const std::vector<std::string>& paths, const Config& config, const std::string& truth,
                           const BagRange& range);
 
 /// The report with other estimates of the same drive in the place of its own; errors, stops and times become theirs.
