@@ -49,7 +49,7 @@ class Cluster:
 
     def connected(self):
         try:
-            return self.distributed.Client(self.address, timeout=LONGEST_SILENCE_S, set_as_default=False)
+            return self.distributed.Client(self.address, timeout=LONGEST_SILENCE_S)
         except (OSError, ValueError, TypeError) as error:
             raise SchedulerError(f"no Dask scheduler answers at '{self.address}': {one_line(error)}; "
                                  "start one with dask-scheduler") from None
