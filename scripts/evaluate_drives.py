@@ -130,8 +130,8 @@ def members_of(parser, arguments, recordings):
     groups = {name: [] for name, _ in arguments.group}
     for recording in recordings:
         for name, pattern in arguments.group:
-            if any(fnmatch.fnmatch(path, pattern) for part in recording.parts
-                   for path in (part, os.path.basename(part))):
+            if any(fnmatch.fnmatch(path, pattern) for path in (recording.name, *recording.parts,
+                                                               *map(os.path.basename, recording.parts))):
                 groups[name].append(recording)
                 break
     for name, members in groups.items():

@@ -39,7 +39,7 @@ class Cluster:
             import distributed
         except ImportError:
             raise SchedulerError(MISSING) from None
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what is lost is said here
+        logging.disable(logging.CRITICAL)  # Dask tells losses by tracebacks; here they are said in a line
         self.distributed = distributed
         self.address = address
         self.names = {}  # of tasks, by key

@@ -19,9 +19,11 @@ STYLE = """
 @media (prefers-color-scheme: dark) {
   :root { --text: #ddd; --page: #181a1b; --line: #444; --dim: #aaa; --bad: #ff9a66; --link: #7cc4ff }
 }
-body { font-family: sans-serif; color: var(--text); background: var(--page); margin: 2rem auto; max-width: 90rem; padding: 0 1rem }
+body { font-family: sans-serif; color: var(--text); background: var(--page); margin: 2rem auto; max-width: 90rem;
+       padding: 0 1rem }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; margin: 1rem 0 }
-th, td { border-bottom: 1px solid var(--line); padding: 0.3rem 0.6rem; text-align: right; font-size: 0.85rem; vertical-align: top }
+th, td { border-bottom: 1px solid var(--line); padding: 0.3rem 0.6rem; text-align: right; font-size: 0.85rem;
+         vertical-align: top }
 th { font-weight: normal; color: var(--dim); vertical-align: bottom }
 td.text, th.text { text-align: left } td.bad { color: var(--bad) } a { color: var(--link) }
 .wide { overflow-x: auto } caption { text-align: left; padding-bottom: 0.5rem }

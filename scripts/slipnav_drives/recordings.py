@@ -6,6 +6,10 @@ from dataclasses import dataclass
 from typing import Dict, Tuple
 
 ENDING = ".bag"
+# Of folders: what is no recording of ROS 1, by its ending.
+LEFT_OUT = {".mcap": "a recording of ROS 2; convert it, for example by rosbags-convert",
+            ".db3": "a recording of ROS 2; convert it, for example by rosbags-convert",
+            ".bag.active": "it was not finished; rosbag reindex may mend it, without the ending .active"}
 LONGEST_GAP_S = 3.0  # from the last message of a part to the first of the next
 LONGEST_OVERLAP_S = 0.5  # messages of several sensors are not written in perfect order
 EXPECTED = 3  # messages of a topic in a part, by its rate in the other: fewer may be none
@@ -31,19 +35,26 @@ class Span:
     topics: Dict[str, Tuple[str, int]]  # type and number of messages
 
 
-def files_of(arguments):
-    """Files, each once, folders by what recordings are in them and below. Raises ValueError for a folder of none."""
-    files = []
+def files_in(folder, say):
+    """Recordings in it and below. Raises ValueError where there is none."""
+    inside = sorted(os.path.join(path, name) for path, _, names in os.walk(folder) for name in names)
+    for path in inside:
+        for ending, cause in LEFT_OUT.items():
+            if path.endswith(ending):
+                say(f"{path} is left out: {cause}")
+    found = [path for path in inside if path.endswith(ENDING)]
+    if not found:
+        raise ValueError(f"no recording (*{ENDING}) in the folder '{folder}'")
+    return found
+
+
+def files_of(arguments, say):
+    """Files, each once, folders by what is in them."""
+    files = {}
     for argument in arguments:
-        if not os.path.isdir(argument):
-            files.append(argument)
-            continue
-        found = sorted(os.path.join(folder, name) for folder, _, names in os.walk(argument)
-                       for name in names if name.endswith(ENDING))
-        if not found:
-            raise ValueError(f"no recording (*{ENDING}) in the folder '{argument}'")
-        files += found
-    return list({os.path.realpath(file): file for file in reversed(files)}.values())[::-1]
+        for file in files_in(argument, say) if os.path.isdir(argument) else [argument]:
+            files.setdefault(os.path.realpath(file), file)
+    return list(files.values())
 
 
 def span_of(path):
@@ -141,7 +152,7 @@ def named(groups_of_parts):
 
 
 def recordings_of(arguments, separate, say):
-    files = files_of(arguments)
+    files = files_of(arguments, say)
     parts = [(file,) for file in files] if separate or len(files) == 1 else joined(files, say)
     recordings = named(parts)
     for recording in recordings:

@@ -301,9 +301,11 @@ class ProgramTest(FolderTest):
                          ["failed: no start: the wheels fell off", "consistent"])
 
     def test_folders_are_searched(self):
-        self.bags("drives/b", "drives/deep/c", "drives/a")
-        result = self.run_program("drives")
-        self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[2:5]], ["a", "b", "c"])
+        bags = self.bags("drives/b", "drives/deep/c", "drives/a")
+        self.executable("drives/d.mcap", "")
+        result = self.run_program(bags[0], "drives")
+        self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[2:]][:4], ["b", "a", "c", "b:"])
+        self.assertIn("evaluate: drives/d.mcap is left out: a recording of ROS 2; convert it", result.stderr)
 
     def test_figures_of_the_file_have_all_their_digits(self):
         self.run_program("--out", "out", *self.bags("one", "threes"))
