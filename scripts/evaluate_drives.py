@@ -54,6 +54,14 @@ def group(text):
     return name, pattern
 
 
+def sections_of_tables(path):
+    try:
+        with open(path, encoding="utf-8") as file:
+            return json.load(file)["sections"]
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise argparse.ArgumentTypeError(f"'{path}' is no tables.json of ./run tables: {error}")
+
+
 def own_parser():
     parser = Parser(prog="evaluate", usage=argparse.SUPPRESS, add_help=False, allow_abbrev=False,
                     formatter_class=lambda prog: argparse.HelpFormatter(prog, max_help_position=32, width=120))
@@ -64,6 +72,8 @@ def own_parser():
     options.add_argument("--group", type=group, action="append", default=[], metavar="NAME=GLOB",
                          help="recordings whose path or file name fits, for the paper's tables and its figure of stop "
                               "intervals by group; without a BAG the files that fit; may be repeated")
+    options.add_argument("--simulated", type=sections_of_tables, metavar="FILE",
+                         help="tables.json of ./run tables: its drives stand beside the groups")
     engine.add_options(options, positive_count)
     options.add_argument("--evaluate", metavar="FILE", help="the executable (default: the one in PATH)")
     return parser
@@ -155,12 +165,12 @@ def say_findings(outcomes):
             say(f"{recording}: {finding}")
 
 
-def sections_by_group(groups, outcomes):
+def sections_by_group(groups, outcomes, simulated):
     """({name: Section}, as text, as HTML)"""
     from slipnav_drives.groups import sections_of  # draws, and takes time to load
     from slipnav_tables.output import section_html, section_markdown
 
-    sections = sections_of(groups, outcomes)
+    sections = sections_of(groups, outcomes, simulated)
     return (sections, "\n\n".join(map(section_markdown, sections.values())),
             "".join(map(section_html, sections.values())))
 
@@ -170,10 +180,10 @@ def write(directory, name, content):
         file.write(content if isinstance(content, bytes) else content.encode())
 
 
-def report(line, groups, outcomes):
+def report(line, groups, outcomes, simulated):
     """Prints the table, and writes what belongs to all recordings."""
     print(table.text(outcomes), end="")
-    sections, markdown, sections_html = sections_by_group(groups, outcomes) if groups else ({}, "", "")
+    sections, markdown, sections_html = sections_by_group(groups, outcomes, simulated) if groups else ({}, "", "")
     if markdown:
         print("\n" + markdown)
     if not line.out:
@@ -202,7 +212,7 @@ def run(parser, arguments, line):
     groups = members_of(parser, arguments, recordings)
     outcomes = evaluate_all(arguments, line, recordings)
     say_findings(outcomes)
-    report(line, groups, outcomes)
+    report(line, groups, outcomes, arguments.simulated)
     failed = sum(isinstance(outcome, Failure) for outcome in outcomes.values())
     if failed:
         say(f"{failed} of {len(outcomes)} recordings failed")

@@ -36,7 +36,7 @@ def names_text(recordings):
     return ", ".join(recording.name for recording in recordings)
 
 
-def accuracy_section(groups, outcomes):
+def accuracy_section(groups, outcomes, simulated):
     rows, data = [], {}
     for name, members in groups.items():
         known = judged(members, outcomes)
@@ -46,6 +46,8 @@ def accuracy_section(groups, outcomes):
             rows.append([name if kind == "median" else "", str(len(known)) if kind == "median" else "", kind]
                         + [NOT_KNOWN if kind == "rms" and key not in ERRORS else number(data[name][key][kind], decimals)
                            for _, key, decimals in accuracy.COLUMNS_1])
+    rows += [[f"simulated, {name}", "", "median (max)"] + accuracy.simulated_cells(figures, accuracy.COLUMNS_1)
+             for name, figures in simulated.get("table1", {}).items()]
     rows += [[f"paper, {row.name}", "1", ""] + accuracy.paper_cells(row, accuracy.COLUMNS_1) for row in paper.TABLE_1]
     heads = ["group", "drives", ""] + [head for head, _, _ in accuracy.COLUMNS_1]
     notes = ["Over the recordings of a group, each of which counts once. The paper's rows are single drives."]
@@ -56,12 +58,16 @@ def accuracy_section(groups, outcomes):
     return Section("Table I: accuracy by group", [Table(heads, rows)], notes, data=data)
 
 
-def stops_section(groups, outcomes):
+def stops_section(groups, outcomes, simulated):
     rows, data = [], {}
     for name, members in groups.items():
         known = judged(members, outcomes)
         data[name] = accuracy.summary(outcomes, known, accuracy.COLUMNS_2)
         rows.append([name, str(len(known)), ""] + accuracy.simulated_cells(data[name], accuracy.COLUMNS_2))
+    for row in paper.TABLE_2:
+        if row.name in simulated.get("table2", {}):
+            rows.append([f"simulated, {row.name}", "", row.policy]
+                        + accuracy.simulated_cells(simulated["table2"][row.name], accuracy.COLUMNS_2))
     rows += [[f"paper, {row.name}", "1", row.policy] + accuracy.paper_cells(row, accuracy.COLUMNS_2)
              for row in paper.TABLE_2]
     heads = ["group", "drives", "stops by"] + [head for head, _, _ in accuracy.COLUMNS_2]
@@ -99,7 +105,15 @@ def kind_data(groups, outcomes, kind):
     return data, single, notes
 
 
-def intervals_section(groups, outcomes):
+def beside(kinds, simulated):
+    """The same with the grounds of simulated drives, which belong to no test."""
+    found = simulated.get("intervals", {})
+    return {kind: {**data, **{f"{ground}, simulated": values
+                              for ground, values in found.get(kind, {}).get("terrains", {}).items()}}
+            for kind, data in kinds.items()}
+
+
+def intervals_section(groups, outcomes, simulated):
     kinds, tests, titles, notes, doubt = {}, {}, {}, [], False
     for kind, title in TITLES.items():
         data, single, said = kind_data(groups, outcomes, kind)
@@ -116,17 +130,20 @@ def intervals_section(groups, outcomes):
     if not kinds:
         return Section("Stop intervals by group", [], notes[1:])
     pairs = list(itertools.combinations(groups, 2))
-    tables = [intervals.interval_table(kinds, titles), intervals.significance_table(tests, titles, pairs)]
-    figure = Figure("stop_intervals", "Stop intervals by group", png_of(intervals.draw(kinds, titles)))
+    shown = beside(kinds, simulated)
+    tables = [intervals.interval_table(shown, titles), intervals.significance_table(tests, titles, pairs)]
+    figure = Figure("stop_intervals", "Stop intervals by group", png_of(intervals.draw(shown, titles)))
     data = {kind: {"groups": kinds[kind], "anova_p": tests[kind]["anova_p"],
                    "tukey_p": {"/".join(pair): p for pair, p in tests[kind]["tukey_p"].items()}} for kind in kinds}
     return Section("Stop intervals by group", tables, notes, [figure], data)
 
 
-def sections_of(groups, outcomes):
-    """{name: Section}. `groups`: {name: recordings}; `outcomes`: {recording: Evaluation or Failure}"""
-    sections = {"accuracy": accuracy_section(groups, outcomes), "stops": stops_section(groups, outcomes),
-                "intervals": intervals_section(groups, outcomes)}
+def sections_of(groups, outcomes, simulated=None):
+    """{name: Section}. `groups`: {name: recordings}; `outcomes`: {recording: Evaluation or Failure}; `simulated`: the
+    sections of a tables.json."""
+    sections = {name: section(groups, outcomes, simulated or {})
+                for name, section in (("accuracy", accuracy_section), ("stops", stops_section),
+                                      ("intervals", intervals_section))}
     for name, members in groups.items():
         failed = [one for one in members if isinstance(outcomes[one], Failure)]
         if failed:

@@ -74,7 +74,7 @@ def interval_table(kinds, titles):
             quartiles = np.percentile(values, (25, 50, 75, 0, 100)) if values else [None] * 5
             rows.append([title, ground, str(len(values))] + [number(value, 1) for value in quartiles]
                         + [str(found["at_least"])])
-    return Table(["seconds", "ground", "drives", "lower quartile", "median", "upper quartile", "least", "most",
+    return Table(["seconds", "ground", "values", "lower quartile", "median", "upper quartile", "least", "most",
                   "no stop seen"], rows)
 
 

@@ -32,6 +32,7 @@ from slipnav_drives import groups, recordings, table  # noqa: E402
 from slipnav_drives.evaluation import Evaluation  # noqa: E402
 from slipnav_drives.recordings import Recording, Span  # noqa: E402
 from slipnav_drives.stops import StopTimes, read_stop_times  # noqa: E402
+from slipnav_tables import accuracy  # noqa: E402
 
 PROGRAM = os.path.join(ROOT, "scripts", "evaluate_drives.py")
 TABLE_HEAD = ["head one", "head two"]
@@ -202,6 +203,21 @@ class GroupsTest(unittest.TestCase):
         self.assertIn(groups.DOUBT, section.notes)
         self.assertIn(f"{groups.TITLES['forecast']}: cannot be told of any group.", section.notes)
 
+    def test_simulated_drives_stand_beside_and_change_no_test(self):
+        grounds = {"firm": members("f", 2), "soft": members("s", 2)}
+        outcomes = {one: evaluated(StopTimes((10.0 + place,), (), 60.0))
+                    for place, one in enumerate(grounds["firm"] + grounds["soft"])}
+        figures = {key: {"median": 7.0, "worst": 9.0} for _, key, _ in accuracy.COLUMNS_1 + accuracy.COLUMNS_2}
+        simulated = {"table1": {"Test1": figures}, "table2": {"Rough_B": figures},
+                     "intervals": {"real": {"terrains": {"paved": {"intervals_s": [50.0, 51.0], "at_least": 0}}}}}
+        alone, beside = (groups.sections_of(grounds, outcomes, other) for other in (None, simulated))
+        self.assertIn("simulated, Test1", [row[0] for row in beside["accuracy"].tables[0].rows])
+        self.assertIn(["simulated, Rough_B", "", "autonomous", "7", "7 (9)", "7.00 (9.00)", "7.00 (9.00)", "7 (9)"],
+                      beside["stops"].tables[0].rows)
+        self.assertIn("paved, simulated", [row[1] for row in beside["intervals"].tables[0].rows])
+        self.assertEqual(beside["intervals"].tables[1], alone["intervals"].tables[1])
+        self.assertNotEqual(beside["intervals"].figures[0].png, alone["intervals"].figures[0].png)
+
     def test_what_has_no_two_stops_is_named(self):
         grounds = {"firm": members("f", 2)}
         outcomes = dict(zip(grounds["firm"], (evaluated(StopTimes((), (), 60.0)), evaluated(StopTimes((9.0,), (), 60.0)))))
@@ -360,6 +376,7 @@ class ProgramTest(FolderTest):
         for arguments, words in ((["--sepparate"], "unknown option '--sepparate', did you mean '--separate'?"),
                                  (["--report"], "--report needs --out"), (["--odometry", "x"], "for one recording alone"),
                                  (["--group", "x"], "'x' is not NAME=GLOB"), (["--group", "x=y*"], "in the group 'x'"),
+                                 (["--simulated", "one.bag"], "'one.bag' is no tables.json of ./run tables"),
                                  (["empty"], "no recording (*.bag) in the folder 'empty'"), (["--jobs", "0"], "--jobs")):
             result = self.run_program(*bags, *arguments)
             self.assertEqual((result.returncode, result.stdout), (2, ""), arguments)
