@@ -62,5 +62,18 @@ ensure_built() { "$ROOT/scripts/build"; }
 
 enter_workspace() { source_setup "$BUILD/devel/setup.bash"; }
 
+# Puts the arguments into ARGUMENTS, names of configurations (--config NAME, as for launch files) as files of config/.
+name_configurations() {
+  local argument previous=""
+  ARGUMENTS=()
+  for argument in "$@"; do
+    if [[ "$previous" == --config && ! -e "$argument" && -f "$ROOT/config/$argument.yaml" ]]; then
+      argument="$ROOT/config/$argument.yaml"
+    fi
+    ARGUMENTS+=("$argument")
+    previous="$argument"
+  done
+}
+
 # A port that nobody listens on: what is started here must not get into the way of a master that runs already.
 free_port() { python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'; }

@@ -5,6 +5,7 @@ Drives the other two, prints the table, and writes comparison.json.
 """
 
 import argparse
+import contextlib
 import json
 import os
 import sys
@@ -12,9 +13,11 @@ import sys
 # Beside this file, also where a build folder runs it through a stand-in.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
+from slipnav_campaign.local import LocalPool  # noqa: E402
+from slipnav_campaign.task import Failure  # noqa: E402
 from slipnav_tables import clock, output, paper  # noqa: E402
 from slipnav_tables.drive import Drive, read_outcome  # noqa: E402
-from slipnav_tables.fleet import Failure, Fleet  # noqa: E402
+from slipnav_tables.fleet import drive_all  # noqa: E402
 from slipnav_tables.section import Table, number  # noqa: E402
 
 GROUND = next(ground for ground in clock.GROUNDS if ground.name == "patches on paved")
@@ -42,7 +45,8 @@ def main():
     others = {"by the clock": clock.clock_drive(drive, autonomous),
               "never": Drive(GROUND.terrain, arguments.distance, arguments.seed, clock.NEVER, None, GROUND.settings,
                              with_stretches=True)}
-    outcomes = Fleet(arguments.simulate, jobs=2).drive_all(list(dict.fromkeys(others.values())))
+    with contextlib.closing(LocalPool(2)) as pool:
+        outcomes = drive_all(arguments.simulate, list(dict.fromkeys(others.values())), pool)
     named = {"autonomous": autonomous, **{name: outcomes[other] for name, other in others.items()}}
     for name, outcome in named.items():
         if isinstance(outcome, Failure):

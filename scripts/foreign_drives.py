@@ -6,7 +6,6 @@ there are left out by name.
 """
 
 import argparse
-import concurrent.futures
 import os
 import shutil
 import statistics
@@ -15,8 +14,10 @@ import sys
 # Beside this file, also where a build folder runs it through a stand-in.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
+from slipnav_campaign import engine  # noqa: E402
+from slipnav_campaign.task import Failure, Task  # noqa: E402
 from slipnav_zoo import catalog  # noqa: E402
-from slipnav_zoo.evaluation import Failure, evaluate, ratio  # noqa: E402
+from slipnav_zoo.evaluation import evaluate, ratio  # noqa: E402
 from slipnav_zoo.table import Limits, markdown, number  # noqa: E402
 
 HEADS = ["drive", "m", "ENU %", "final %", "NEES", "3σ %", "stops", "used", "wheels+gyro %", "textbook %", "ratio"]
@@ -45,7 +46,7 @@ def parse_arguments():
     parser.add_argument("--only", metavar="TEXT", default="", help="drives whose name has this in it")
     parser.add_argument("--set", action="append", default=[], metavar="BLOCK.KEY=VALUE",
                         help="one setting, for every drive; to try something out")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="drives at the same time")
+    engine.add_options(parser)
     parser.add_argument("--out", metavar="FILE.md", help="the table goes here too")
     parser.add_argument("--evaluate", default=shutil.which("evaluate"), metavar="FILE", help="the executable")
     arguments = parser.parse_args()
@@ -64,12 +65,22 @@ def find(name, *folders):
     return None
 
 
-def evaluate_drive(drive, arguments):
+def task_of(drive, arguments):
+    """None where its files are not there."""
     bag = find(drive.bag + ".bag", arguments.data)
     configurations = [find(name, arguments.data, arguments.config_dir) for name in drive.configurations]
     if bag is None or None in configurations:
         return None
-    return evaluate(arguments.evaluate, bag, configurations, arguments.set)
+    return Task(drive.bag, evaluate, (arguments.evaluate, bag, configurations, arguments.set), os.path.getsize(bag))
+
+
+def evaluate_all(drives, arguments):
+    """{drive: Evaluation, Failure, or None where its files are not there}"""
+    tasks = {drive: task_of(drive, arguments) for drive in drives}
+    there = {drive: task for drive, task in tasks.items() if task is not None}
+    with engine.pool_of(arguments) as pool:
+        outcomes = dict(zip(there, engine.run_all(list(there.values()), pool)))
+    return {drive: outcomes.get(drive) for drive in drives}
 
 
 def row(drive, outcome):
@@ -117,8 +128,15 @@ def check_medians(outcomes, limits):
 def main():
     arguments = parse_arguments()
     drives = [drive for drive in catalog.ALL if arguments.only in drive.bag]
-    with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-        outcomes = dict(zip(drives, pool.map(lambda drive: evaluate_drive(drive, arguments), drives)))
+    engine.heed_signals()
+    try:
+        outcomes = evaluate_all(drives, arguments)
+    except KeyboardInterrupt:
+        print("foreign: interrupted", file=sys.stderr)
+        return engine.INTERRUPTED
+    except ConnectionError as error:
+        print(f"foreign: {error}", file=sys.stderr)
+        return 1
     limits = Limits()
     for drive, outcome in outcomes.items():
         if outcome is not None:

@@ -8,7 +8,6 @@ failed; the tables then hold the others, and say which one it was.
 import argparse
 import os
 import shutil
-import signal
 import sys
 
 import matplotlib
@@ -18,16 +17,16 @@ matplotlib.use("Agg")  # no display needed
 # Beside this file, also where a build folder runs it through a stand-in.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
+from slipnav_campaign import engine  # noqa: E402
 from slipnav_tables import output, paper  # noqa: E402
 from slipnav_tables.accuracy import Table1, Table2  # noqa: E402
 from slipnav_tables.clock import Clock  # noqa: E402
 from slipnav_tables.curve import Curve  # noqa: E402
-from slipnav_tables.fleet import Fleet  # noqa: E402
+from slipnav_tables.fleet import drive_all  # noqa: E402
 from slipnav_tables.intervals import Intervals  # noqa: E402
 from slipnav_tables.section import Options  # noqa: E402
 
 SECTIONS = {section.NAME: section for section in (Table1, Table2, Clock, Curve, Intervals)}
-INTERRUPTED = 130
 
 
 class Parser(argparse.ArgumentParser):
@@ -72,8 +71,7 @@ def parse_arguments():
                         help="drives on each ground for the stop intervals (default %(default)s)")
     parser.add_argument("--interval-threshold", type=positive_length, default=3.0, metavar="M",
                         help="error bound for the stop intervals (default %(default)s)")
-    parser.add_argument("--jobs", type=positive_count, default=os.cpu_count() or 1, metavar="N",
-                        help="drives at the same time (default: one per core)")
+    engine.add_options(parser, positive_count)
     parser.add_argument("--only", type=section_names, default=list(SECTIONS), metavar="NAME,...",
                         help="sections to make: " + ", ".join(SECTIONS) + " (default: all)")
     parser.add_argument("--out", default=os.path.join("out", "tables"), metavar="DIR",
@@ -91,22 +89,22 @@ def beside_this(name):
     return path if os.access(path, os.X_OK) else shutil.which(name)
 
 
-def interrupt(*_):
-    raise KeyboardInterrupt
+def all_outcomes(arguments, chosen, options):
+    drives = list(dict.fromkeys(drive for section in chosen.values() for drive in section.drives(options)))
+    with engine.pool_of(arguments) as pool:
+        outcomes = drive_all(arguments.simulate, drives, pool)
+        if Clock.NAME in chosen:  # what the clocks do follows from what the others did
+            clocks = list(dict.fromkeys(drive for drive in Clock.follow_up(outcomes, options) if drive not in outcomes))
+            outcomes.update(drive_all(arguments.simulate, clocks, pool))
+    return outcomes
 
 
 def make_tables(arguments):
     options = Options(arguments.seeds, arguments.curve_seeds or arguments.seeds, arguments.interval_tests,
                       arguments.interval_threshold)
     chosen = {name: SECTIONS[name] for name in arguments.only}
-    drives = list(dict.fromkeys(drive for section in chosen.values() for drive in section.drives(options)))
     os.makedirs(arguments.out, exist_ok=True)
-    outcomes = Fleet(arguments.simulate, arguments.jobs).drive_all(drives)
-    if Clock.NAME in chosen:  # what the clocks do follows from what the others did
-        clocks = list(dict.fromkeys(drive for drive in Clock.follow_up(outcomes, options) if drive not in outcomes))
-        outcomes.update(Fleet(arguments.simulate, arguments.jobs).drive_all(clocks))
-        drives += clocks
-    outcomes = {drive: outcomes[drive] for drive in drives}
+    outcomes = all_outcomes(arguments, chosen, options)
     sections = {name: section.section(outcomes, options) for name, section in chosen.items()}
     output.write_all(arguments.out, sections, outcomes)
     print(output.markdown(list(sections.values()), outcomes))
@@ -116,13 +114,12 @@ def make_tables(arguments):
 
 def main():
     arguments = parse_arguments()
-    signal.signal(signal.SIGTERM, interrupt)
-    signal.signal(signal.SIGHUP, interrupt)
+    engine.heed_signals()
     try:
         return make_tables(arguments)
     except KeyboardInterrupt:
         print("tables: interrupted", file=sys.stderr)
-        return INTERRUPTED
+        return engine.INTERRUPTED
     except OSError as error:
         print(f"tables: {error}", file=sys.stderr)
         return 1

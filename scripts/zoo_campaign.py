@@ -13,6 +13,7 @@ import sys
 # Beside this file, also where a build folder runs it through a stand-in.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
+from slipnav_campaign import engine  # noqa: E402
 from slipnav_zoo import adversary, grid, worlds  # noqa: E402
 from slipnav_zoo.simulation import drive_all, names  # noqa: E402
 
@@ -31,7 +32,7 @@ def parse_arguments():
     parser.add_argument("--grid", action="store_true", help="cells of speeds, rates, grounds and sensors, drawn once")
     parser.add_argument("--cells", type=int, default=grid.CELLS, metavar="N", help="of the grid (default %(default)s)")
     parser.add_argument("--adversarial", type=int, metavar="N", help="N drives with random configurations")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="drives at the same time")
+    engine.add_options(parser)
     parser.add_argument("--out", metavar="DIR", help="the table and the broken limits go here too")
     parser.add_argument("--simulate", default=shutil.which("simulate"), metavar="FILE", help="the executable")
     arguments = parser.parse_args()
@@ -51,23 +52,32 @@ def chosen(parser, text, known, kind):
     return text.split(",")
 
 
-def run(arguments):
+def run(arguments, pool):
     """Name of the mode, its table and its limits."""
     if arguments.adversarial:
         configuration = os.path.join(os.path.dirname(arguments.simulate), "configuration")
         known = adversary.parameters(subprocess.run([configuration], check=True, capture_output=True, text=True).stdout)
         drives = adversary.drives(arguments.adversarial, arguments.worlds, arguments.grades, known)
-        return "adversarial", *adversary.report(drive_all(arguments.simulate, drives, arguments.jobs))
+        return "adversarial", *adversary.report(drive_all(arguments.simulate, drives, pool))
     if arguments.grid:
         drives = grid.drives(arguments.cells, arguments.seeds or grid.SEEDS)
-        return "grid", *grid.report(drive_all(arguments.simulate, drives, arguments.jobs), arguments.cells)
+        return "grid", *grid.report(drive_all(arguments.simulate, drives, pool), arguments.cells)
     drives = worlds.drives(arguments.worlds, arguments.grades, arguments.seeds or 10)
-    return "worlds", *worlds.report(drive_all(arguments.simulate, drives, arguments.jobs))
+    return "worlds", *worlds.report(drive_all(arguments.simulate, drives, pool))
 
 
 def main():
     arguments = parse_arguments()
-    mode, table, limits = run(arguments)
+    engine.heed_signals()
+    try:
+        with engine.pool_of(arguments) as pool:
+            mode, table, limits = run(arguments, pool)
+    except KeyboardInterrupt:
+        print("zoo: interrupted", file=sys.stderr)
+        return engine.INTERRUPTED
+    except ConnectionError as error:
+        print(f"zoo: {error}", file=sys.stderr)
+        return 1
     text = table + "\n\n" + limits.text() + "\n"
     print(text, end="")
     if arguments.out:

@@ -4,9 +4,10 @@ from typing import NamedTuple, Tuple
 
 import numpy as np
 
+from slipnav_campaign.task import Failure
+
 from . import paper
 from .drive import Drive
-from .fleet import Failure
 from .section import Section, Table, number
 from .statistics import median
 

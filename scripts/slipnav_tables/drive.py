@@ -47,7 +47,7 @@ class Stretch:
     """Driving between stops, from the begin of the route to the first, or from the last to the end of the drive."""
 
     duration_s: float
-    growth_m: float  # largest horizontal length of the change of the error since its begin
+    growth_m: Optional[float]  # largest horizontal length of the change of the error since its begin
     after_stop: bool
     ended_by_stop: bool
 
@@ -91,17 +91,20 @@ def read_columns(path, names):
     return dict(zip(names, np.array(rows, dtype=float).reshape(len(rows), len(names)).T))
 
 
-def driving_stretches(timeline):
-    """In their order."""
+def driving_stretches(timeline, with_growth=True):
+    """In their order; growths need truth."""
     time = timeline["t"]
-    error = np.stack([timeline["est_" + axis] - timeline["truth_" + axis] for axis in "en"])
+    error = None
+    if with_growth:
+        error = np.stack([timeline["est_" + axis] - timeline["truth_" + axis] for axis in "en"])
     stops = standstills(timeline)
     driving = np.flatnonzero(timeline["stationary"] < 0.5)
     if not len(driving):
         raise ValueError("the rover did not drive")
     begins = [driving[0]] + [end for _, end in stops]
     ends = [begin for begin, _ in stops] + [driving[-1]]  # the rest at the end is not driving
-    return [Stretch(float(time[end] - time[begin]), growth(error[:, begin:end + 1]), i > 0, i < len(stops))
+    return [Stretch(float(time[end] - time[begin]), growth(error[:, begin:end + 1]) if with_growth else None, i > 0,
+                    i < len(stops))
             for i, (begin, end) in enumerate(zip(begins, ends))]
 
 
@@ -115,13 +118,25 @@ def growth(error):
 
 def probed_time_to_stop(timeline, forecasts, after_s):
     """What the first forecast says that is made at least so long after the end of the first stop."""
-    stops = standstills(timeline)
-    if not stops:
+    times = probed_times(timeline, forecasts, after_s)
+    if not times:
         raise ValueError("the rover did not stop")
-    released = timeline["t"][stops[0][1]]
-    until = timeline["t"][stops[1][0]] if len(stops) > 1 else timeline["t"][-1]
-    made = np.flatnonzero((forecasts["t"] >= released + after_s) & (forecasts["t"] < until))
-    if not len(made):
+    if times[0] is None:
         raise ValueError(f"no forecast was made {after_s:g} s after the first stop and before the next")
-    time_to_stop_s = float(forecasts["time_to_stop_s"][made[0]])
-    return np.inf if np.isnan(time_to_stop_s) else time_to_stop_s
+    return times[0]
+
+
+def probed_times(timeline, forecasts, after_s):
+    """The same for each stop; infinite beyond the horizon, None where no forecast was made before the next stop."""
+    time = timeline["t"]
+    stops = standstills(timeline)
+    begins = [time[begin] for begin, _ in stops[1:]] + [time[-1]]
+    times = []
+    for (_, end), until in zip(stops, begins):
+        made = np.flatnonzero((forecasts["t"] >= time[end] + after_s) & (forecasts["t"] < until))
+        if len(made):
+            time_to_stop_s = float(forecasts["time_to_stop_s"][made[0]])
+            times.append(np.inf if np.isnan(time_to_stop_s) else time_to_stop_s)
+        else:
+            times.append(None)
+    return times

@@ -1,5 +1,7 @@
 """The figure of stop intervals by ground, with analysis of variance and Tukey's test."""
 
+import itertools
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -8,7 +10,7 @@ from slipnav_report.page import png_of
 
 from . import paper
 from .drive import Drive
-from .section import Figure, Section, Table, number, succeeded
+from .section import NOT_KNOWN, Figure, Section, Table, number, succeeded
 from .statistics import anova_p, median, p_text, tukey_p
 
 # A drive that stops once in time to forecast after it; 15 s of driving are 12 m.
@@ -47,6 +49,7 @@ KINDS = (
     ("forecast", "Time to the stop as forecast, 15 s after a stop", forecast_drives, forecast_interval),
     ("real", "Real time between stops, median of each drive", real_drives, real_interval),
 )
+TITLES = {name: title for name, title, _, _ in KINDS}
 
 
 def kind_data(outcomes, options, drives_of, interval_of):
@@ -59,54 +62,54 @@ def kind_data(outcomes, options, drives_of, interval_of):
 
 def tests_of(data):
     """ANOVA's and Tukey's p values; None where they cannot be told."""
-    groups = {terrain: data[terrain]["intervals_s"] for terrain in paper.TERRAINS}
+    groups = {ground: data[ground]["intervals_s"] for ground in data}
     return {"anova_p": anova_p(list(groups.values())), "tukey_p": tukey_p(groups)}
 
 
-def interval_table(kinds):
+def interval_table(kinds, titles):
     rows = []
-    for name, title, _, _ in KINDS:
-        for terrain in paper.TERRAINS:
-            values = kinds[name][terrain]["intervals_s"]
+    for name, title in titles.items():
+        for ground, found in kinds[name].items():
+            values = found["intervals_s"]
             quartiles = np.percentile(values, (25, 50, 75, 0, 100)) if values else [None] * 5
-            rows.append([title, terrain, str(len(values))] + [number(value, 1) for value in quartiles]
-                        + [str(kinds[name][terrain]["at_least"])])
-    return Table(["seconds", "ground", "drives", "lower quartile", "median", "upper quartile", "least", "most",
+            rows.append([title, ground, str(len(values))] + [number(value, 1) for value in quartiles]
+                        + [str(found["at_least"])])
+    return Table(["seconds", "ground", "values", "lower quartile", "median", "upper quartile", "least", "most",
                   "no stop seen"], rows)
 
 
-def significance_table(tests):
-    heads = ["p", "paper"] + [title for _, title, _, _ in KINDS]
-    rows = [["ANOVA", "-"] + [p_text(tests[name]["anova_p"]) for name, _, _, _ in KINDS]]
-    for pair, paper_p in paper.TUKEY_P.items():
-        label = "/".join(terrain[0].upper() for terrain in pair)
-        rows.append([label, paper_p] + [p_text(tests[name]["tukey_p"][pair]) for name, _, _, _ in KINDS])
+def significance_table(tests, titles, pairs):
+    heads = ["p", "paper"] + list(titles.values())
+    rows = [["ANOVA", "-"] + [p_text(tests[name]["anova_p"]) for name in titles]]
+    for pair in pairs:
+        rows.append(["/".join(pair), paper.TUKEY_P.get(pair, NOT_KNOWN)]
+                    + [p_text(tests[name]["tukey_p"].get(pair)) for name in titles])
     return Table(heads, rows, "One-way analysis of variance, and Tukey's test of each pair of grounds")
 
 
 def order_text(data):
-    medians = {terrain: median(data[terrain]["intervals_s"]) for terrain in paper.TERRAINS}
-    known = [terrain for terrain in paper.TERRAINS if medians[terrain] is not None]
-    return " > ".join(sorted(known, key=lambda terrain: -medians[terrain]))
+    medians = {ground: median(data[ground]["intervals_s"]) for ground in data}
+    known = [ground for ground in data if medians[ground] is not None]
+    return " > ".join(sorted(known, key=lambda ground: -medians[ground]))
 
 
 def draw_boxes(axes, data, title):
-    boxes = axes.boxplot([data[terrain]["intervals_s"] for terrain in paper.TERRAINS], patch_artist=True, widths=0.6,
+    boxes = axes.boxplot([found["intervals_s"] for found in data.values()], patch_artist=True, widths=0.6,
                          whis=(0, 100), medianprops={"color": palette.TEXT, "lw": 2})
-    for place, (terrain, box, colour) in enumerate(zip(paper.TERRAINS, boxes["boxes"], BOX_COLOURS), 1):
+    for place, (found, box, colour) in enumerate(zip(data.values(), boxes["boxes"], itertools.cycle(BOX_COLOURS)), 1):
         box.set(facecolor=colour, alpha=0.6)
-        values = data[terrain]["intervals_s"]
+        values = found["intervals_s"]
         axes.plot(place + np.linspace(-0.2, 0.2, len(values)), values, ".", color=palette.TEXT, ms=3)
-    axes.set_xticklabels(paper.TERRAINS)
+    axes.set_xticklabels(data)
     axes.set_ylim(bottom=0.0)
     axes.set_ylabel("ΔTime [s]")
     axes.set_title(title, fontsize=10)
     axes.grid(axis="y", alpha=0.3)
 
 
-def draw(kinds):
-    figure, all_axes = plt.subplots(1, len(KINDS), figsize=(11, 5))
-    for axes, (name, title, _, _) in zip(all_axes, KINDS):
+def draw(kinds, titles):
+    figure, all_axes = plt.subplots(1, len(titles), figsize=(11, 5))
+    for axes, (name, title) in zip(np.atleast_1d(all_axes), titles.items()):
         draw_boxes(axes, kinds[name], title)
     return figure
 
@@ -140,6 +143,6 @@ class Intervals:
         tests = {name: tests_of(kinds[name]) for name in kinds}
         data = {name: {"terrains": kinds[name], "anova_p": tests[name]["anova_p"],
                        "tukey_p": {"/".join(pair): p for pair, p in tests[name]["tukey_p"].items()}} for name in kinds}
-        figure = Figure("stop_intervals", "Stop intervals by ground", png_of(draw(kinds)))
-        return Section("Stop intervals", [interval_table(kinds), significance_table(tests)], notes_of(kinds, options),
-                       [figure], data)
+        figure = Figure("stop_intervals", "Stop intervals by ground", png_of(draw(kinds, TITLES)))
+        tables = [interval_table(kinds, TITLES), significance_table(tests, TITLES, paper.TUKEY_P)]
+        return Section("Stop intervals", tables, notes_of(kinds, options), [figure], data)

@@ -4,9 +4,8 @@ import html
 import json
 import os
 
+from slipnav_campaign.task import Failure
 from slipnav_report.page import STYLE, figure_block
-
-from .fleet import Failure
 
 TITLE = "The paper's tables and figure, over simulated drives"
 

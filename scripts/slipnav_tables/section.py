@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from typing import Dict, List, Optional
 
-from .fleet import Failure
+from slipnav_campaign.task import Failure
 
 NOT_KNOWN = "-"
 

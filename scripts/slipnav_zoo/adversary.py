@@ -4,7 +4,8 @@ import math
 import random
 import re
 
-from .evaluation import Failure
+from slipnav_campaign.task import Failure
+
 from .simulation import NO_STOPS, STOPS, Drive
 from .table import Limits, markdown, number
 

@@ -4,8 +4,6 @@ import csv
 import json
 import math
 import os
-import shutil
-import subprocess
 import tempfile
 from dataclasses import dataclass
 
@@ -15,10 +13,6 @@ SHORTEST_REST_S = 1.5  # a stop that every filter should use
 REST_SPEED_MPS = 0.002
 LONGEST_GAP_S = 1.0  # between wheel samples, within a rest
 NO_FORECASTS = "forecast.interval_s=60"  # they cost most of the time, and change no estimate
-
-
-class Failure(Exception):
-    """Why a drive has no outcome, in one line."""
 
 
 @dataclass(frozen=True)
@@ -40,13 +34,6 @@ def scaled(value, factor):
 
 def ratio(value, reference):
     return None if value is None or not reference else value / reference
-
-
-def run_tool(command):
-    process = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False)
-    if process.returncode != 0:
-        words = process.stderr.strip().splitlines()
-        raise Failure(words[-1] if words else f"{os.path.basename(command[0])} ended with {process.returncode}")
 
 
 def read_columns(path, names):
@@ -88,23 +75,16 @@ def read_evaluation(directory):
                       float(np.nanmax(np.abs(wheels["wheel_speed"]), initial=0.0)))
 
 
-def evaluate(executable, bag, configurations, settings=()):
-    """Evaluation, or Failure."""
-    directory = tempfile.mkdtemp(prefix="slipnav_zoo_")
-    command = [executable, bag, "--out", directory]
-    for configuration in configurations:
-        command += ["--config", configuration]
-    for setting in (NO_FORECASTS,) + tuple(settings):
-        command += ["--set", setting]
-    try:
-        run_tool(command)
+def evaluate(call, executable, bag, configurations, settings=()):
+    """Of a campaign."""
+    with tempfile.TemporaryDirectory(prefix="slipnav_zoo_") as directory:
+        command = [executable, bag, "--out", directory]
+        for configuration in configurations:
+            command += ["--config", configuration]
+        for setting in (NO_FORECASTS,) + tuple(settings):
+            command += ["--set", setting]
+        call(command)
         return read_evaluation(directory)
-    except Failure as failure:
-        return failure
-    except (OSError, ValueError, KeyError) as error:
-        return Failure(f"{type(error).__name__}: {error}")
-    finally:
-        shutil.rmtree(directory, ignore_errors=True)
 
 
 def finite(value):

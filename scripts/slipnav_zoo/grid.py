@@ -3,7 +3,8 @@
 import itertools
 import random
 
-from .evaluation import Failure
+from slipnav_campaign.task import Failure
+
 from .simulation import STOPS, Drive, groups, mean, values
 from .table import Limits, markdown, number
 

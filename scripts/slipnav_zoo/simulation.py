@@ -1,17 +1,18 @@
 """One simulated drive in a named world, and the figures that it leaves."""
 
-import concurrent.futures
 import json
 import math
 import os
 import statistics
 import subprocess
-import sys
 import tempfile
 from dataclasses import dataclass
 from typing import Tuple
 
-from .evaluation import NO_FORECASTS, Failure, ratio, run_tool, scaled
+from slipnav_campaign.engine import run_all
+from slipnav_campaign.task import Task
+
+from .evaluation import NO_FORECASTS, ratio, scaled
 
 NO_STOPS = "none"
 STOPS = "periodic:60:5"
@@ -50,35 +51,19 @@ class Figures:
         return [alarm["what"] for alarm in self.simulation["alarms"]]
 
 
-def drive_one(executable, drive):
-    """Figures, or Failure."""
-    handle, path = tempfile.mkstemp(prefix="slipnav_zoo_", suffix=".json")
-    os.close(handle)
-    try:
-        run_tool([executable] + drive.arguments(path))
+def simulate(call, executable, drive):
+    with tempfile.TemporaryDirectory(prefix="slipnav_zoo_") as directory:
+        path = os.path.join(directory, "figures.json")
+        call([executable] + drive.arguments(path))
         with open(path, encoding="utf-8") as file:
             read = json.load(file)
-        return Figures(read["metrics"], read["simulation"])
-    except Failure as failure:
-        return failure
-    except (OSError, ValueError, KeyError) as error:
-        return Failure(f"{type(error).__name__}: {error}")
-    finally:
-        os.unlink(path)
+    return Figures(read["metrics"], read["simulation"])
 
 
-def drive_all(executable, drives, jobs):
+def drive_all(executable, drives, pool):
     """{drive: Figures or Failure}, in the order of the drives."""
-    outcomes = {}
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for drive, outcome in zip(drives, pool.map(lambda one: drive_one(executable, one), drives)):
-            outcomes[drive] = outcome
-            if sys.stderr.isatty():
-                sys.stderr.write(f"\r\033[K{len(outcomes)} of {len(drives)} drives")
-                sys.stderr.flush()
-    if sys.stderr.isatty():
-        sys.stderr.write("\n")
-    return outcomes
+    tasks = [Task(str(drive), simulate, (executable, drive)) for drive in drives]
+    return dict(zip(drives, run_all(tasks, pool)))
 
 
 def names(executable, kind):

@@ -2,7 +2,8 @@
 
 import statistics
 
-from .evaluation import Failure
+from slipnav_campaign.task import Failure
+
 from .simulation import NO_STOPS, STOPS, Drive, groups, mean, values
 from .table import Limits, markdown, number
 

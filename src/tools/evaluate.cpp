@@ -1,6 +1,7 @@
 /// Runs the pipeline on a recording and measures it against its truth.
 
 #include <iostream>
+#include <vector>
 
 #include "config/config_options.h"
 #include "core/base/atomic_file.h"
@@ -16,6 +17,7 @@ using slipnav::CommandLine;
 CommandLine commandLine() {
   CommandLine command_line("evaluate", "Runs the pipeline on a recording, without a ROS master, and measures it.");
   command_line.positional("BAG", "recording of ROS 1")
+      .repeated("part", "BAG", "further file of the same recording, as rosbag record --split leaves them")
       .option("truth", "TOPIC|FILE.pos",
               "truth: a topic of the recording or an RTKLIB solution; default: the first of "
               "truth/fix, truth/odometry, truth/pose that it has")
@@ -43,9 +45,11 @@ void printFindings(const slipnav::BagEvaluation& evaluation) {
 }
 
 /// Also a run without a start leaves behind what was wrong.
-slipnav::BagEvaluation evaluated(const std::string& bag, const slipnav::Config& config, const Arguments& arguments) {
+slipnav::BagEvaluation evaluated(const slipnav::Config& config, const Arguments& arguments) {
+  std::vector<std::string> bags = arguments.all("part");
+  bags.insert(bags.begin(), arguments.text("BAG"));
   try {
-    return slipnav::evaluateBag(bag, config, arguments.text("truth"), {}, arguments.given("smooth"));
+    return slipnav::evaluateBag(bags, config, arguments.text("truth"), {}, arguments.given("smooth"));
   } catch (const slipnav::NoStart& failure) {
     printFindings(failure.evaluation());
     if (arguments.given("out")) {
@@ -66,7 +70,7 @@ int run(int argc, char** argv) {
   checkArguments(arguments);
   const std::string& bag = arguments.text("BAG");
   const slipnav::Config config = slipnav::configFromOptions(arguments);
-  const slipnav::BagEvaluation evaluation = evaluated(bag, config, arguments);
+  const slipnav::BagEvaluation evaluation = evaluated(config, arguments);
   printFindings(evaluation);
   if (arguments.given("out")) {
     slipnav::writeRunReport(arguments.text("out"), evaluation.report);

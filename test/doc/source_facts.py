@@ -7,7 +7,7 @@ import re
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 # Files in examples that a user makes, or that a run writes.
-FILES_OF_USERS = {"my_rover.yaml", "RTKLIB.pos", "report.html", "tables.md", "default.yaml", "init_params.yaml"}
+FILES_OF_USERS = {"my_rover.yaml", "RTKLIB.pos", "report.html", "tables.md", "groups.md", "default.yaml", "init_params.yaml"}
 
 # Nodelets whose publishers live in a class of their own.
 PUBLISHERS = {"estimate_publisher.cpp": ["Filter"], "sensor_publisher.cpp": ["Simulator", "SimulatedRover"],
@@ -115,7 +115,10 @@ def commands():
 
 # What a script of this name only starts.
 PYTHON_PROGRAMS = {"tables": "scripts/paper_tables.py", "foreign": "scripts/foreign_drives.py",
-                   "zoo": "scripts/zoo_campaign.py"}
+                   "zoo": "scripts/zoo_campaign.py", "evaluate": "scripts/evaluate_drives.py"}
+# Programs that hand options on to an executable, and those of every campaign.
+EXECUTABLES = {"evaluate": "src/tools/evaluate.cpp"}
+CAMPAIGN = "scripts/slipnav_campaign/engine.py"
 
 
 def options_of(command):
@@ -123,12 +126,19 @@ def options_of(command):
     path = commands()[command]
     text = read(path)
     if path.endswith(".cpp"):
-        declared = re.compile(r'\.(?:option|flag|choice|repeated)\("([\w-]+)"')
-        shared = read("src/config/config_options.cpp") if "declareConfigOptions" in text else ""
-        return set(declared.findall(text + shared)) | {"help"}
+        return options_of_executable(text)
     if command in PYTHON_PROGRAMS:
-        return set(re.findall(r'add_argument\(\s*"--([\w-]+)"', read(PYTHON_PROGRAMS[command]))) | {"help"}
+        program = read(PYTHON_PROGRAMS[command])
+        shared = read(CAMPAIGN) if "engine.add_options" in program else ""
+        passed = options_of_executable(read(EXECUTABLES[command])) if command in EXECUTABLES else set()
+        return set(re.findall(r'add_argument\(\s*"--([\w-]+)"', program + shared)) | {"help"} | passed
     return set(re.findall(r"--([a-z][\w-]*)", text))
+
+
+def options_of_executable(text):
+    declared = re.compile(r'\.(?:option|flag|choice|repeated)\("([\w-]+)"')
+    shared = read("src/config/config_options.cpp") if "declareConfigOptions" in text else ""
+    return set(declared.findall(text + shared)) | {"help"}
 
 
 def literals(statement):

@@ -10,8 +10,9 @@ import numpy as np
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
+from slipnav_campaign.task import Failure  # noqa: E402
 from slipnav_zoo import adversary, grid, worlds  # noqa: E402
-from slipnav_zoo.evaluation import Failure, rests, used  # noqa: E402
+from slipnav_zoo.evaluation import rests, used  # noqa: E402
 from slipnav_zoo.simulation import NO_STOPS, STOPS, Drive, Figures  # noqa: E402
 from slipnav_zoo.table import markdown  # noqa: E402
 

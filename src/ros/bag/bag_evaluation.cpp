@@ -155,10 +155,15 @@ void finish(const OfflineRun& run, const TruthAlignment& alignment, BagEvaluatio
 }  // namespace
 
 BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
+                          const BagRange& range) {
+  return evaluateBag(std::vector<std::string>{path}, config, truth, range);
+}
+
+BagEvaluation evaluateBag(const std::vector<std::string>& paths, const Config& config, const std::string& truth,
                           const BagRange& range, bool smooth) {
   const Stopwatch stopwatch;
   const bool truth_from_file = isRtklibFile(truth);
-  const BagReader reader(path, config, truth_from_file ? "" : truth, range);
+  const BagReader reader(paths, config, truth_from_file ? "" : truth, range);
   BagEvaluation evaluation;
   OfflineRun run(reader.config(), true);
   if (smooth) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "config/config.h"
 #include "evaluation/report.h"
@@ -35,9 +36,11 @@ class NoStart : public std::runtime_error {
 
 /// @param range the part of the recording to use
 /// @param truth topic or RTKLIB file (.pos) of the truth; "" for what the recording has, see BagReader
-/// @param smooth also run it backwards
 /// Throws std::invalid_argument for a recording that cannot be used, NoStart when no start could be found.
 BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
+                          const BagRange& range);
+/// @param paths the parts of one recording; @param smooth also run it backwards
+BagEvaluation evaluateBag(const std::vector<std::string>& paths, const Config& config, const std::string& truth,
                           const BagRange& range, bool smooth = false);
 
 /// The report with other estimates of the same drive in the place of its own; errors, stops and times become theirs.

@@ -140,7 +140,7 @@ void BagFile::addEntry(ByteReader& bytes, std::uint64_t chunk, std::uint32_t con
   const Nanoseconds time = seconds * kSecond + bytes.number<std::uint32_t>();
   const auto offset = bytes.number<std::uint32_t>();
   if (time > 0) {  // rosbag leaves the others out, too
-    entries_.push_back({time, chunk, offset, connection_id});
+    entries_.push_back({time, chunk, offset, connection_id, 0});
   }
 }
 
@@ -170,5 +170,30 @@ ByteReader BagFile::content(const BagEntry& entry) {
 }
 
 void BagFile::fail(const std::string& what) const { throw std::invalid_argument(path_ + ": " + what); }
+
+BagParts::BagParts(const std::vector<std::string>& paths) {
+  parts_.reserve(paths.size());
+  for (const std::string& path : paths) {
+    parts_.emplace_back(path);
+    entries_.reserve(entries_.size() + parts_.back().entries().size());
+    for (BagEntry entry : parts_.back().entries()) {
+      entry.part = parts_.size() - 1;
+      entries_.push_back(entry);
+    }
+  }
+  std::stable_sort(entries_.begin(), entries_.end(),
+                   [](const BagEntry& a, const BagEntry& b) { return a.time < b.time; });
+}
+
+std::vector<BagConnection> BagParts::connections() const {
+  std::vector<BagConnection> all;
+  for (const BagFile& part : parts_) {
+    all.reserve(all.size() + part.connections().size());
+    for (const auto& [id, connection] : part.connections()) {
+      all.push_back(connection);
+    }
+  }
+  return all;
+}
 
 }  // namespace slipnav

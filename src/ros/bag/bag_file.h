@@ -30,6 +30,7 @@ struct BagEntry {
   std::uint64_t chunk = 0;          ///< place of its chunk in the file
   std::uint32_t offset = 0;         ///< of its record in the chunk
   std::uint32_t connection_id = 0;  ///< of the topic
+  std::size_t part = 0;             ///< of a recording of several files, see BagParts
 };
 
 /// A recording of format 2.0, plain, by LZ4 or by BZ2, that is complete and not encrypted. Errors are
@@ -84,6 +85,32 @@ class BagFile {
   std::vector<BagEntry> entries_;
   std::uint64_t loaded_chunk_ = 0;  ///< place in the file; 0 for none
   std::vector<std::uint8_t> chunk_;
+};
+
+/// One recording in several files, as `rosbag record --split` leaves it. Each may have its own numbers of topics.
+class BagParts {
+ public:
+  explicit BagParts(const std::vector<std::string>& paths);
+
+  /// All messages of all parts in the order of their recording.
+  const std::vector<BagEntry>& entries() const { return entries_; }
+  /// Of all parts.
+  std::vector<BagConnection> connections() const;
+  const BagConnection& connection(const BagEntry& entry) const { return parts_[entry.part].connection(entry); }
+
+  template <class Message>
+  bool holds(const BagEntry& entry) const {
+    return parts_[entry.part].holds<Message>(entry);
+  }
+
+  template <class Message>
+  Message read(const BagEntry& entry) {
+    return parts_[entry.part].read<Message>(entry);
+  }
+
+ private:
+  std::vector<BagFile> parts_;
+  std::vector<BagEntry> entries_;
 };
 
 }  // namespace slipnav

@@ -34,11 +34,12 @@ std::string typeName() {
 }  // namespace
 
 struct BagReader::Parts {
-  Parts(const std::string& file, Config configuration) : path(file), config(std::move(configuration)), bag(file) {}
+  Parts(const std::vector<std::string>& files, Config configuration)
+      : path(files.front()), config(std::move(configuration)), bag(files) {}
 
   std::string path;
   Config config;
-  BagFile bag;
+  BagParts bag;
   std::map<std::string, std::string> types;  ///< of each topic, by its bare name
   std::string truth_topic;                   ///< bare; "" when there is none
   Nanoseconds begin = 0;
@@ -81,7 +82,7 @@ struct BagReader::Parts {
     if (end < begin) {
       fail("is shorter than " + std::to_string(range.start_s) + " s");
     }
-    for (const auto& [id, connection] : bag.connections()) {
+    for (const BagConnection& connection : bag.connections()) {
       types[bare(connection.topic)] = connection.type;
     }
   }
@@ -234,7 +235,11 @@ struct BagReader::Parts {
 };
 
 BagReader::BagReader(const std::string& path, const Config& config, const std::string& truth, const BagRange& range)
-    : parts_(std::make_unique<Parts>(path, config)) {
+    : BagReader(std::vector<std::string>{path}, config, truth, range) {}
+
+BagReader::BagReader(const std::vector<std::string>& paths, const Config& config, const std::string& truth,
+                     const BagRange& range)
+    : parts_(std::make_unique<Parts>(paths, config)) {
   parts_->scan(range);
   parts_->requireInputs();
   parts_->chooseTruth(truth);

@@ -40,6 +40,9 @@ class BagReader {
  public:
   /// @param truth topic of the truth; "" for the first of truth/fix, truth/odometry, truth/pose that the bag has
   BagReader(const std::string& path, const Config& config, const std::string& truth = "", const BagRange& range = {});
+  /// @param paths the parts of one recording, of which errors name the first
+  BagReader(const std::vector<std::string>& paths, const Config& config, const std::string& truth,
+            const BagRange& range);
   ~BagReader();
   BagReader(BagReader&&) noexcept;
   BagReader& operator=(BagReader&&) noexcept;

@@ -111,6 +111,37 @@ TEST_F(BagTest, APartCanBeRead) {
   EXPECT_NE(complaint({}, "", {1000.0, 0.0}).find("is shorter than"), std::string::npos);
 }
 
+TEST_F(BagTest, PartsAreOneRecording) {
+  test::writeShortDrive(bag_.path(), {});
+  TemporaryBag first;
+  TemporaryBag second;
+  const Nanoseconds middle = BagReader(bag_.path(), {}).begin() + 20 * kSecond;
+  const auto copyIf = [this, middle](const std::string& to, bool before) {
+    test::editBag(bag_.path(), to, [middle, before](const rosbag::MessageInstance& message, rosbag::Bag& target) {
+      if ((static_cast<Nanoseconds>(message.getTime().toNSec()) < middle) == before) {
+        target.write(message.getTopic(), message.getTime(), message);
+      }
+    });
+  };
+  copyIf(first.path(), true);
+  copyIf(second.path(), false);
+
+  const BagReader whole(bag_.path(), {});
+  const BagReader parts({second.path(), first.path()}, {}, "", {});
+  EXPECT_EQ(parts.begin(), whole.begin());
+  EXPECT_EQ(parts.duration(), whole.duration());
+  const Collected expected = readAll(whole);
+  const Collected all = readAll(parts);
+  ASSERT_EQ(all.imu.size(), expected.imu.size());
+  for (std::size_t i = 0; i < expected.imu.size(); ++i) {
+    ASSERT_EQ(all.imu[i].stamp, expected.imu[i].stamp);
+    ASSERT_EQ(all.imu[i].f_ib_b, expected.imu[i].f_ib_b);
+  }
+  EXPECT_EQ(all.wheels.size(), expected.wheels.size());
+  EXPECT_EQ(all.fixes.size(), expected.fixes.size());
+  EXPECT_EQ(all.truth_fixes.size(), expected.truth_fixes.size());
+}
+
 TEST_F(BagTest, FromTheTrueStartTheErrorIsSmall) {
   Config config;
   test::writeShortDrive(bag_.path(), config);

@@ -1,0 +1,56 @@
+#!/usr/bin/python3
+"""Does one task of a campaign for a worker of a cluster: reads it from the standard input, writes its outcome.
+
+A process of its own, so that a worker needs to know nothing of this project and never holds an old version of it.
+"""
+
+import ctypes
+import os
+import pickle
+import signal
+import subprocess
+import sys
+
+# The packages lie beside the one of this file.
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+from slipnav_campaign.task import Caller, Failure, perform  # noqa: E402
+
+PR_SET_PDEATHSIG = 1  # of <linux/prctl.h>
+ENVIRONMENT = ("PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH")
+
+
+def die_with_parent():
+    """Of a worker that is killed no process goes on, which would write beside the one that takes its place."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+class RemoteCaller(Caller):
+    def start(self, command, **options):
+        return subprocess.Popen(command, preexec_fn=die_with_parent, **options)
+
+
+def packed(task):
+    """A task with what it needs of this process: its folder, and where ROS is."""
+    environment = {name: value for name, value in os.environ.items() if name in ENVIRONMENT or name.startswith("ROS_")}
+    return pickle.dumps((os.getcwd(), environment, pickle.dumps(task)))
+
+
+def unpacked_and_done(packet):
+    folder, environment, task = pickle.loads(packet)
+    os.environ.update(environment)
+    try:
+        os.chdir(folder)
+    except OSError as error:
+        return Failure(f"{os.uname().nodename}: {error}; a cluster needs the same paths on every machine")
+    return perform(pickle.loads(task), RemoteCaller())
+
+
+def main():
+    die_with_parent()
+    outcome = unpacked_and_done(sys.stdin.buffer.read())
+    sys.stdout.buffer.write(pickle.dumps(outcome))
+
+
+if __name__ == "__main__":
+    main()

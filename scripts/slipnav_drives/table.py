@@ -1,0 +1,80 @@
+"""The rows of all recordings: as text, as a file, and in the order of their verdicts."""
+
+import csv
+import io
+import json
+
+from slipnav_campaign.task import Failure
+
+from .evaluation import NAME_WIDTH, reason
+
+# Of the processor and not of the drive: they differ from run to run.
+TIMINGS = ("forecast_ms_p50", "forecast_ms_p99", "cpu_s", "realtime_factor")
+FAILED = "failed"
+# How a verdict begins or what it has in it, the worst first.
+VERDICTS = (FAILED, "over-confident", "worse than wheels and gyro", "stops seen but not used", "cautious", "not judged",
+            "consistent")
+
+
+def verdict_of(outcome):
+    if isinstance(outcome, Failure):
+        return f"{FAILED}: {reason(outcome)}"
+    return outcome.remarks[0].split(": ", 1)[1]
+
+
+def text(outcomes):
+    """As `evaluate` prints one recording: the header, a row of each, the verdict of each."""
+    heads = [outcome.head for outcome in outcomes.values() if not isinstance(outcome, Failure)]
+    lines, remarks = list(heads[0]) if heads else [], []
+    for recording, outcome in outcomes.items():
+        if isinstance(outcome, Failure):
+            lines.append(recording.name.ljust(NAME_WIDTH) + "  " + verdict_of(outcome))
+        else:
+            lines += outcome.rows
+            remarks += outcome.remarks
+    return "\n".join(lines + remarks) + "\n"
+
+
+def alarms_text(alarms):
+    return "; ".join(f"{alarm['what']} ({alarm['count']})" for alarm in alarms)
+
+
+def cells_of(outcome):
+    """{column: text} of metrics.json, numbers with all the digits that stand there."""
+    cells = {}
+    for key, value in json.loads(outcome.metrics_json, parse_float=str, parse_int=str).items():
+        if key not in TIMINGS:
+            cells[key] = alarms_text(value) if isinstance(value, list) else "" if value is None else value
+    return cells
+
+
+def rows_csv(outcomes, group_of):
+    cells = {recording: {} if isinstance(outcome, Failure) else cells_of(outcome)
+             for recording, outcome in outcomes.items()}
+    columns = list(dict.fromkeys(key for found in cells.values() for key in found if key != "verdict"))
+    buffer = io.StringIO()
+    writer = csv.writer(buffer, lineterminator="\n")
+    writer.writerow(["recording", "files", "group", "verdict"] + columns)
+    for recording, outcome in outcomes.items():
+        writer.writerow([recording.name, " ".join(recording.parts), group_of.get(recording, ""), verdict_of(outcome)]
+                        + [cells[recording].get(column, "") for column in columns])
+    return buffer.getvalue()
+
+
+def rank(outcome):
+    verdict = verdict_of(outcome)
+    return next((place for place, word in enumerate(VERDICTS) if word in verdict), len(VERDICTS))
+
+
+def is_bad(outcome):
+    return rank(outcome) < VERDICTS.index("cautious")
+
+
+def badness(outcome):
+    """Smaller is worse: the verdict, then the larger error."""
+    error = None if isinstance(outcome, Failure) else outcome.metrics["enu_error_pct"]
+    return rank(outcome), 0.0 if error is None else -error
+
+
+def worst_first(outcomes):
+    return sorted(outcomes, key=lambda recording: badness(outcomes[recording]))
