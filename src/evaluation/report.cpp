@@ -19,6 +19,7 @@ namespace slipnav {
 namespace {
 
 constexpr int kCsvDigits = 12;
+constexpr const char* kComparePrefix = "compare_";
 
 /// The number, or NaN, which streams as `nan`, where there is none.
 double orNan(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
@@ -103,9 +104,38 @@ void writeSmoothed(const std::filesystem::path& folder, const std::optional<Smoo
   }
 }
 
+/// Those of an earlier run.
+void removeCompared(const std::filesystem::path& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string extension = entry.path().extension().string();
+    if (entry.path().filename().string().rfind(kComparePrefix, 0) == 0 &&
+        (extension == ".csv" || extension == ".tum")) {
+      std::error_code ignored;
+      std::filesystem::remove(entry.path(), ignored);
+    }
+  }
+}
+
+void writeCompared(const std::filesystem::path& folder, const std::vector<OtherTrack>& others,
+                   const TruthTrack& truth) {
+  removeCompared(folder);
+  for (const OtherTrack& other : others) {
+    const std::string path = (folder / (kComparePrefix + other.name)).string();
+    writeTum(path + ".tum", tumPoses(other.estimates));
+    writeTimelineCsv(path + ".csv", other.estimates, truth);
+  }
+}
+
+JsonObject errorsOf(const Metrics& metrics) {
+  JsonObject errors;
+  addErrors(metrics, errors);
+  errors.addNumber("final_pct", metrics.final_pct);
+  return errors;
+}
+
 }  // namespace
 
-std::string metricsJson(const Metrics& metrics, const Metrics* smoothed) {
+std::string metricsJson(const Metrics& metrics, const Metrics* smoothed, const std::vector<OtherTrack>& others) {
   JsonObject json;
   json.addNumber("distance_m", metrics.distance_m);
   json.addNumber("duration_s", metrics.duration_s);
@@ -130,17 +160,22 @@ std::string metricsJson(const Metrics& metrics, const Metrics* smoothed) {
   json.addAlarms("problems", metrics.problems);
   json.addAlarms("alarms", metrics.alarms);
   if (smoothed != nullptr) {
-    JsonObject errors;
-    addErrors(*smoothed, errors);
-    errors.addNumber("final_pct", smoothed->final_pct);
-    json.addObject("smoothed", errors);
+    json.addObject("smoothed", errorsOf(*smoothed));
+  }
+  if (!others.empty()) {
+    JsonObject compared;
+    for (const OtherTrack& other : others) {
+      compared.addObject(other.name.c_str(), errorsOf(other.metrics));
+    }
+    json.addObject("compared", compared);
   }
   return json.text();
 }
 
-void writeMetricsJson(const std::string& path, const Metrics& metrics, const Metrics* smoothed) {
+void writeMetricsJson(const std::string& path, const Metrics& metrics, const Metrics* smoothed,
+                      const std::vector<OtherTrack>& others) {
   AtomicFile file(path);
-  file.stream() << metricsJson(metrics, smoothed);
+  file.stream() << metricsJson(metrics, smoothed, others);
   file.commit();
 }
 
@@ -177,13 +212,14 @@ void writeRunReport(const std::string& directory, const RunReport& report) {
   writeTum((folder / "estimate.tum").string(), tumPoses(report.estimates));
   writeTumOrRemove((folder / "truth.tum").string(), tumPoses(report.truth));
   writeSmoothed(folder, report.smoothed);
+  writeCompared(folder, report.others, report.truth);
   writeTimelineCsv((folder / "timeline.csv").string(), report.estimates, report.truth);
   writeForecastsCsv((folder / "forecasts.csv").string(), report.forecasts);
   writeFilterCsv((folder / "filter.csv").string(), report.diagnostics.filter);
   writeWheelTrackCsv((folder / "wheel_track.csv").string(), report.diagnostics.wheel_only);
   writeSlipForecastsCsv((folder / "slip_forecasts.csv").string(), report.diagnostics.slip_forecasts);
   writeNeesCsv((folder / "nees.csv").string(), report.estimates, report.truth);
-  writeMetricsJson((folder / "metrics.json").string(), report.metrics, report.smoothedMetrics());
+  writeMetricsJson((folder / "metrics.json").string(), report.metrics, report.smoothedMetrics(), report.others);
 }
 
 std::string tableHeader() {
@@ -209,8 +245,14 @@ std::string tableRow(const std::string& name, std::optional<double> threshold_m,
 }
 
 std::string tableRows(const std::string& name, std::optional<double> threshold_m, const RunReport& report) {
-  const std::string row = tableRow(name, threshold_m, report.metrics);
-  return report.smoothed ? row + tableRow(name + " (smoothed)", threshold_m, report.smoothed->metrics) : row;
+  std::string rows = tableRow(name, threshold_m, report.metrics);
+  if (report.smoothed) {
+    rows += tableRow(name + " (smoothed)", threshold_m, report.smoothed->metrics);
+  }
+  for (const OtherTrack& other : report.others) {
+    rows += tableRow(other.name, threshold_m, other.metrics);
+  }
+  return rows;
 }
 
 }  // namespace slipnav

@@ -11,6 +11,7 @@
 
 #include "evaluation/estimate.h"
 #include "evaluation/metrics.h"
+#include "evaluation/other_track.h"
 #include "evaluation/run_diagnostics.h"
 #include "evaluation/truth_track.h"
 #include "slipnav/core/base/types.h"
@@ -26,9 +27,12 @@ struct ForecastRow {
 };
 
 /// `metrics.json`: one object, keys in the order of the struct Metrics. Last in it, of a drive that was smoothed,
-/// `smoothed`: the errors of that, under the same keys.
-std::string metricsJson(const Metrics& metrics, const Metrics* smoothed = nullptr);
-void writeMetricsJson(const std::string& path, const Metrics& metrics, const Metrics* smoothed = nullptr);
+/// `smoothed`: the errors of that, under the same keys; and, of tracks that it was compared with, `compared`: an object
+/// with those of each by its name.
+std::string metricsJson(const Metrics& metrics, const Metrics* smoothed = nullptr,
+                        const std::vector<OtherTrack>& others = {});
+void writeMetricsJson(const std::string& path, const Metrics& metrics, const Metrics* smoothed = nullptr,
+                      const std::vector<OtherTrack>& others = {});
 
 /// `timeline.csv`, `smoothed.csv`: t, est_e, est_n, est_u, sigma_e, sigma_n, sigma_u, truth_e, truth_n, truth_u, speed,
 /// slip, stationary; one row per estimate, truth interpolated, t in UNIX seconds.
@@ -52,14 +56,16 @@ struct RunReport {
   std::vector<ForecastRow> forecasts;
   RunDiagnostics diagnostics;
   std::optional<SmoothedRun> smoothed;
+  std::vector<OtherTrack> others;  ///< that it was compared with
 
   /// Of `smoothed`, where there is one.
   const Metrics* smoothedMetrics() const { return smoothed ? &smoothed->metrics : nullptr; }
 };
 
 /// Creates the directory where it is missing and writes metrics.json, timeline.csv, forecasts.csv, estimate.tum, the
-/// files of run_diagnostics.h; with truth, truth.tum; of a drive that was smoothed, smoothed.csv and smoothed.tum
-/// (those of an earlier run are removed where this one has none).
+/// files of run_diagnostics.h; with truth, truth.tum; of a drive that was smoothed, smoothed.csv and smoothed.tum;
+/// of each track that it was compared with, compare_NAME.csv and compare_NAME.tum (those of an earlier run are removed
+/// where this one has none).
 void writeRunReport(const std::string& directory, const RunReport& report);
 
 /// The columns of the paper's Table I, in one row of two header lines: name, Σ_D, ε, stops, Σ_T, ENU and median error,
@@ -67,7 +73,7 @@ void writeRunReport(const std::string& directory, const RunReport& report);
 std::string tableHeader();
 /// The row under it. `-` stands for what is not known.
 std::string tableRow(const std::string& name, std::optional<double> threshold_m, const Metrics& metrics);
-/// That of the run, and below it `NAME (smoothed)` where it was smoothed.
+/// That of the run, below it `NAME (smoothed)` where it was smoothed, and one for each track that it was compared with.
 std::string tableRows(const std::string& name, std::optional<double> threshold_m, const RunReport& report);
 
 }  // namespace slipnav

@@ -1,13 +1,19 @@
 /// Runs the pipeline on a recording and measures it against its truth.
 
+#include <algorithm>
+#include <cctype>
 #include <iostream>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "config/config_options.h"
 #include "core/base/atomic_file.h"
 #include "evaluation/alarm_text.h"
 #include "evaluation/report.h"
+#include "evaluation/tum.h"
 #include "ros/bag/bag_evaluation.h"
+#include "ros/bag/bag_poses.h"
 
 namespace {
 
@@ -24,6 +30,8 @@ CommandLine commandLine() {
       .option("out", "DIR", "where metrics.json, timeline.csv, forecasts.csv, estimate.tum, truth.tum go")
       .option("odometry", "FILE", "every message of `odometry` as bytes, to compare runs with")
       .flag("smooth", "run the drive backwards too: a second row, and smoothed.csv and smoothed.tum beside the others")
+      .repeated("compare", "NAME=TOPIC|NAME=FILE.tum",
+                "poses of somebody else on the same drive: a further row, compare_NAME.csv and compare_NAME.tum")
       .flag("report", "plots into the same place");
   slipnav::declareConfigOptions(command_line);
   return command_line;
@@ -33,6 +41,44 @@ void checkArguments(const Arguments& arguments) {
   if (arguments.given("report") && !arguments.given("out")) {
     throw slipnav::UsageError("--report needs --out");
   }
+}
+
+std::vector<std::string> partsOf(const Arguments& arguments) {
+  std::vector<std::string> parts = arguments.all("part");
+  parts.insert(parts.begin(), arguments.text("BAG"));
+  return parts;
+}
+
+bool isName(const std::string& text) {
+  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  });
+}
+
+bool isTumFile(const std::string& source) {
+  constexpr const char* kEnding = ".tum";
+  return source.size() > 4 && source.compare(source.size() - 4, 4, kEnding) == 0;
+}
+
+/// Before the run, so that a wrong name does not cost one.
+std::vector<std::pair<std::string, std::vector<slipnav::TumPose>>> othersOf(const Arguments& arguments) {
+  std::vector<std::pair<std::string, std::vector<slipnav::TumPose>>> others;
+  others.reserve(arguments.all("compare").size());
+  for (const std::string& text : arguments.all("compare")) {
+    const std::size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    if (equals == std::string::npos || equals + 1 == text.size() || !isName(name)) {
+      throw slipnav::UsageError("--compare takes NAME=TOPIC or NAME=FILE.tum, the name of letters, digits, _ and -: '" +
+                                text + "'");
+    }
+    if (std::any_of(others.begin(), others.end(), [&name](const auto& other) { return other.first == name; })) {
+      throw slipnav::UsageError("--compare has the name '" + name + "' twice");
+    }
+    const std::string source = text.substr(equals + 1);
+    others.emplace_back(name,
+                        isTumFile(source) ? slipnav::readTum(source) : slipnav::readPoses(partsOf(arguments), source));
+  }
+  return others;
 }
 
 void printFindings(const slipnav::BagEvaluation& evaluation) {
@@ -46,10 +92,8 @@ void printFindings(const slipnav::BagEvaluation& evaluation) {
 
 /// Also a run without a start leaves behind what was wrong.
 slipnav::BagEvaluation evaluated(const slipnav::Config& config, const Arguments& arguments) {
-  std::vector<std::string> bags = arguments.all("part");
-  bags.insert(bags.begin(), arguments.text("BAG"));
   try {
-    return slipnav::evaluateBag(bags, config, arguments.text("truth"), {}, arguments.given("smooth"));
+    return slipnav::evaluateBag(partsOf(arguments), config, arguments.text("truth"), {}, arguments.given("smooth"));
   } catch (const slipnav::NoStart& failure) {
     printFindings(failure.evaluation());
     if (arguments.given("out")) {
@@ -70,10 +114,16 @@ int run(int argc, char** argv) {
   checkArguments(arguments);
   const std::string& bag = arguments.text("BAG");
   const slipnav::Config config = slipnav::configFromOptions(arguments);
-  const slipnav::BagEvaluation evaluation = evaluated(config, arguments);
+  const auto others = othersOf(arguments);
+  slipnav::BagEvaluation evaluation = evaluated(config, arguments);
+  slipnav::RunReport& report = evaluation.report;
+  report.others.reserve(others.size());
+  for (const auto& [name, poses] : others) {
+    report.others.push_back(slipnav::besideTheEstimate(name, poses, report.estimates, report.truth));
+  }
   printFindings(evaluation);
   if (arguments.given("out")) {
-    slipnav::writeRunReport(arguments.text("out"), evaluation.report);
+    slipnav::writeRunReport(arguments.text("out"), report);
   }
   if (arguments.given("odometry")) {
     evaluation.odometry.write(arguments.text("odometry"));
@@ -81,8 +131,8 @@ int run(int argc, char** argv) {
   if (arguments.given("report")) {
     slipnav::plotReport(arguments.text("out"));
   }
-  std::cout << slipnav::tableHeader() << slipnav::tableRows(slipnav::runName(bag), std::nullopt, evaluation.report)
-            << slipnav::runName(bag) << ": " << evaluation.report.metrics.verdict << '\n';
+  std::cout << slipnav::tableHeader() << slipnav::tableRows(slipnav::runName(bag), std::nullopt, report)
+            << slipnav::runName(bag) << ": " << report.metrics.verdict << '\n';
   return 0;
 }
 
