@@ -5,6 +5,7 @@ Prints what has been written and what was odd about the files; ends with status 
 """
 
 import argparse
+import math
 import os
 import sys
 
@@ -45,6 +46,13 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"import: {message}\n")
 
 
+def number(text):
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(text)
+    return value
+
+
 def make_parser():
     parser = Parser(prog="import", description=__doc__.splitlines()[0], epilog=EPILOG, allow_abbrev=False,
                     formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -53,22 +61,22 @@ def make_parser():
     parser.add_argument("--out", metavar="BAG", help="recording to write")
     parser.add_argument("--imu", metavar="CSV", help="file with the IMU")
     parser.add_argument("--imu-columns", metavar="COLUMNS", help="its columns; default: by their keys, in SI")
-    parser.add_argument("--imu-shift", type=float, default=0.0, metavar="S", help="seconds to add to its stamps")
+    parser.add_argument("--imu-shift", type=number, default=0.0, metavar="S", help="seconds to add to its stamps")
     parser.add_argument("--wheels", metavar="CSV", help="file with wheels or forward speed")
     parser.add_argument("--wheels-columns", metavar="COLUMNS", help="its columns")
-    parser.add_argument("--wheels-shift", type=float, default=0.0, metavar="S", help="seconds to add to its stamps")
-    parser.add_argument("--counts-per-turn", type=float, metavar="N", help="of an encoder, per turn of the wheel")
-    parser.add_argument("--wheel-radius", type=float, metavar="M", help="where wheels are in meters")
+    parser.add_argument("--wheels-shift", type=number, default=0.0, metavar="S", help="seconds to add to its stamps")
+    parser.add_argument("--counts-per-turn", type=number, metavar="N", help="of an encoder, per turn of the wheel")
+    parser.add_argument("--wheel-radius", type=number, metavar="M", help="where wheels are in meters")
     parser.add_argument("--truth", metavar="FILE",
                         help="truth: CSV with --truth-columns, .pos of RTKLIB, .tum or .txt of TUM")
     parser.add_argument("--truth-columns", metavar="COLUMNS", help="its columns, if it is CSV")
-    parser.add_argument("--truth-shift", type=float, default=0.0, metavar="S", help="seconds to add to its stamps")
+    parser.add_argument("--truth-shift", type=number, default=0.0, metavar="S", help="seconds to add to its stamps")
     parser.add_argument("--gps", metavar="FILE", help="fixes of the rover's own receiver, for its start: CSV or .pos")
     parser.add_argument("--gps-columns", metavar="COLUMNS", help="its columns, if it is CSV")
-    parser.add_argument("--gps-shift", type=float, default=0.0, metavar="S", help="seconds to add to its stamps")
+    parser.add_argument("--gps-shift", type=number, default=0.0, metavar="S", help="seconds to add to its stamps")
     parser.add_argument("--oxts-speed", action="store_true",
                         help="KITTI: take the forward speed of its satellite navigation for that of wheels")
-    parser.add_argument("--shift-time", type=float, default=0.0, metavar="S", help="seconds to add to all stamps")
+    parser.add_argument("--shift-time", type=number, default=0.0, metavar="S", help="seconds to add to all stamps")
     parser.add_argument("--programs", default="", metavar="DIR", help="folder of slipnav's programs")
     return parser
 
@@ -101,8 +109,8 @@ def apply_description(path, parser):
         action = known[key]
         if isinstance(value, (list, dict)) != (isinstance(value, dict) and key.endswith("-columns")):
             raise Failure(f"{path}: {key} is no list or mapping")
-        if action.type is float:
-            defaults[action.dest] = number(value, f"{path}: {key}")
+        if action.type is number:
+            defaults[action.dest] = number_at(value, f"{path}: {key}")
         elif action.nargs == 0 and not isinstance(value, bool):
             raise Failure(f"{path}: {key} is true or false")
         else:
@@ -110,9 +118,9 @@ def apply_description(path, parser):
     parser.set_defaults(**defaults)
 
 
-def number(value, where):
+def number_at(value, where):
     try:
-        return float(value)
+        return number(value)
     except (TypeError, ValueError) as error:
         raise Failure(f"{where}: '{value}' is not a number") from error
 

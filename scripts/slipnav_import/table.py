@@ -16,9 +16,10 @@ from slipnav_import.failure import Failure
 SEPARATORS = ",;\t"
 ABSENT = {"", "nan", "-nan", "+nan", "nan(ind)", "-nan(ind)", "inf", "-inf", "+inf", "infinity", "-infinity", "null",
           "none", "na", "n/a"}
-NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
-DATE = re.compile(r"(\d{4})[-/](\d\d?)[-/](\d\d?)[ T](\d\d?):(\d\d?):(\d\d?)(\.\d*)?Z?")
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
+DATE = re.compile(r"(\d{4})[-/](\d\d?)[-/](\d\d?)[ T](\d\d?):(\d\d?):(\d\d?)(\.\d+)?Z?", re.ASCII)
 NANOSECONDS = Decimal(10**9)
+MOST_OF_TIME = 1e25  # in any unit; far beyond the end below
 END_OF_TIME_NS = 2**32 * 10**9  # of the seconds that ROS counts
 
 
@@ -219,10 +220,10 @@ class Table:
 def decimal_ns(field, seconds, where):
     """Nanoseconds of a decimal number, exact."""
     try:
-        if not NUMBER.fullmatch(field):
+        if not NUMBER.fullmatch(field) or abs(float(field)) > MOST_OF_TIME:
             raise InvalidOperation
         return int((Decimal(field) * seconds * NANOSECONDS).to_integral_value())
-    except (InvalidOperation, OverflowError) as error:
+    except InvalidOperation as error:
         raise Failure(f"{where}: '{field}' is not a time") from error
 
 

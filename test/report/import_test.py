@@ -203,15 +203,15 @@ class CsvTest(ImportTestCase):
 
 class StampsTest(ImportTestCase):
     def test_rows_are_sorted_and_what_is_odd_is_counted(self):
-        stamps = [0, 0.1, 0.3, 0.2, 0.4, 0.4, 2.4, 2.5]
+        stamps = [0, 0.1, 0.3, 0.2, 0.4, 0.4, 2.4, 2.6, 2.5]
         self.write("imu.csv", "t,wx,wy,wz,ax,ay,az\n" + "".join(f"{T0 + t},{i},0,0,0,0,9.8\n" for i, t in enumerate(stamps)))
         messages = self.imported("--imu", "imu.csv")["/imu/data"]
-        self.assertEqual([message.angular_velocity.x for _, message in messages], [0, 1, 3, 2, 4, 5, 6, 7])
-        self.assertIn("imu.csv: 1 stamp before the one above, by 0.1 s at most, the first in line 5", self.said)
+        self.assertEqual([message.angular_velocity.x for _, message in messages], [0, 1, 3, 2, 4, 5, 6, 8, 7])
+        self.assertIn("imu.csv: 2 stamps before the one above, by 0.1 s at most, the first in line 5", self.said)
         self.assertIn("imu.csv: 1 stamp equal to the one before", self.said)
         self.assertIn("imu.csv: 1 gap, the longest 2 s after 1600000000.400000000 s", self.said)
-        self.assertIn("out.bag: 8 messages, 2.5 s from 1600000000.000000000 s", self.printed)
-        self.assertIn("imu/data  sensor_msgs/Imu  8  2.8 Hz  imu.csv", self.printed)
+        self.assertIn("out.bag: 9 messages, 2.6 s from 1600000000.000000000 s", self.printed)
+        self.assertIn("imu/data  sensor_msgs/Imu  9  3.1 Hz  imu.csv", self.printed)
         self.assertIn("no wheels", self.printed)
         self.assertIn(f"next: ./run check {self.out}", self.printed)
 
@@ -242,6 +242,7 @@ class RefusalTest(ImportTestCase):
                 ("t,wx,wy,wz,ax,ay,az\n" + row + f"{T0},1,2,x3,4,5,6\n", "imu.csv:3: 'x3' in column 'wz' is not a number"),
                 ("t;wx;wy;wz;ax;ay;az\n1;1,5;2;3;4;5;6\n", "'1,5' in column 'wx' is not a number (a decimal comma"),
                 ("t,wx,wy,wz,ax,ay,az\nnow,1,2,3,4,5,6\n", "imu.csv:2: 'now' is not a time"),
+                ("t,wx,wy,wz,ax,ay,az\n1e99999,1,2,3,4,5,6\n", "imu.csv:2: '1e99999' is not a time"),
                 ("t,wx,wy,wz,ax,ay,az\n0,1,2,3,4,5,6\n", "imu.csv:2: the stamp is 0.000000000 s"),
                 ("t,wx,wy,wz,ax,ay,az\n1e18,1,2,3,4,5,6\n", "beyond what ROS counts: is the unit of t right?"),
                 ("t,wx,wy,wz,ax,ay\n1,1,2,3,4,5\n", "imu.csv has no column 'az'; it has t, wx, wy, wz, ax, ay"),
@@ -301,6 +302,7 @@ class RefusalTest(ImportTestCase):
                                   (["--truth", "imu.csv"], "has no column 'lat'"),
                                   ([], "there is no IMU"),
                                   (["--imu", "none.csv"], "none.csv: cannot be read: No such file"),
+                                  (["--imu", "imu.csv", "--shift-time", "nan"], "--shift-time: invalid number value"),
                                   (["--imu", "imu.csv", "--wheel-radius", "-1"], "--wheel-radius must be above zero")):
             self.assertIn(wanted, self.refused(*arguments))
         self.assertIn("--out names no recording", self.refused("--imu", "imu.csv", out=False))
