@@ -15,6 +15,7 @@
 #include "ros/bag/bag_evaluation.h"
 #include "ros/bag/bag_inspection.h"
 #include "ros/simulated_bag.h"
+#include "support/sample_parameters.h"
 
 namespace slipnav {
 namespace {
