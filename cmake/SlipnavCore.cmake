@@ -18,7 +18,7 @@ foreach(layer IN LISTS slipnav_layers)
   endforeach()
 endforeach()
 
-target_include_directories(slipnav_core PUBLIC "${PROJECT_SOURCE_DIR}/include")
+target_include_directories(slipnav_core PUBLIC "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>")
 #catkin_lint: ignore_once external_interface_path
 target_include_directories(slipnav_core SYSTEM PUBLIC ${GeographicLib_INCLUDE_DIRS} PRIVATE ${NLOPT_INCLUDE_DIR})
 target_link_libraries(slipnav_core

@@ -62,4 +62,5 @@ catkin_package(
     tf2_ros
     visualization_msgs
   DEPENDS EIGEN3 GeographicLib YAML_CPP
+  CFG_EXTRAS slipnav-targets.cmake
 )
