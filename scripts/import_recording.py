@@ -77,7 +77,8 @@ def make_parser():
     parser.add_argument("--oxts-speed", action="store_true",
                         help="KITTI: take the forward speed of its satellite navigation for that of wheels")
     parser.add_argument("--shift-time", type=number, default=0.0, metavar="S", help="seconds to add to all stamps")
-    parser.add_argument("--programs", default="", metavar="DIR", help="folder of slipnav's programs")
+    parser.add_argument("--programs", default=os.path.dirname(os.path.abspath(sys.argv[0])), metavar="DIR",
+                        help="folder of slipnav's programs; default: that of this one")
     return parser
 
 
