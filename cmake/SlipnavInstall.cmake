@@ -20,7 +20,7 @@ if(python_scripts)
   #catkin_lint: ignore_once argument_error
   catkin_install_python(PROGRAMS ${python_scripts}
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-  install(DIRECTORY scripts/slipnav_campaign scripts/slipnav_drives scripts/slipnav_report scripts/slipnav_tables
-    scripts/slipnav_zoo DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
+  install(DIRECTORY scripts/slipnav_campaign scripts/slipnav_drives scripts/slipnav_import scripts/slipnav_report
+    scripts/slipnav_tables scripts/slipnav_zoo DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
     FILES_MATCHING PATTERN "*.py")
 endif()

@@ -1,7 +1,7 @@
 # Executables: src/tools/X.cpp is started by `rosrun slipnav X`, or lies in bin/ of a core-only build.
 
 # Those that need no ROS; every other one links slipnav_ros.
-set(core_tools configuration forecast)
+set(core_tools configuration forecast positions)
 
 # Target names are shared by a whole workspace, so they carry the package's name; the file does not.
 function(slipnav_add_tool source)

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "core/base/statistics.h"
 #include "io/fields.h"
+#include "slipnav/core/earth/planet.h"
 
 namespace slipnav {
 namespace {
@@ -55,6 +55,21 @@ TruthTrack withoutJumps(const TruthTrack& truth) {
     }
   }
   return TruthTrack(std::move(kept), truth.maxGap());
+}
+
+std::set<Nanoseconds> stampsWithoutJumps(const std::vector<GnssFix>& fixes) {
+  std::set<Nanoseconds> stamps;
+  if (fixes.empty()) {
+    return stamps;
+  }
+  const GnssFix& first = fixes.front();
+  const LocalFrame frame(Planet::byName("earth"),
+                         {degToRad(first.latitude_deg), degToRad(first.longitude_deg), first.height_m});
+  const TruthTrack truth = withoutJumps(TruthTrack::fromFixes(fixes, frame));
+  for (const TruthSample& sample : truth.samples()) {
+    stamps.insert(sample.stamp);
+  }
+  return stamps;
 }
 
 void requireTimeInCommon(const TruthTrack& truth, const EstimateTrack& estimates) {

@@ -32,6 +32,14 @@ std::vector<std::string> splitFields(const std::string& line, const char* separa
   return fields;
 }
 
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return text;
+}
+
+bool startsWith(const std::string& text, const std::string& head) { return text.compare(0, head.size(), head) == 0; }
+
 double numberField(const std::string& field) {
   if (const auto value = parseNumber(field)) {
     return *value;

@@ -12,6 +12,10 @@ namespace slipnav {
 /// Pieces of a line between the given separators; empty pieces are left out.
 std::vector<std::string> splitFields(const std::string& line, const char* separators = " \t\r");
 
+/// With the letters of ASCII in lower case, in any locale.
+std::string lowerCase(std::string text);
+bool startsWith(const std::string& text, const std::string& head);
+
 /// The finite number that makes up the whole field. Throws std::invalid_argument that quotes anything else.
 double numberField(const std::string& field);
 

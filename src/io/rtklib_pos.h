@@ -1,11 +1,13 @@
 #pragma once
-/// Reader of RTKLIB solution files (`.pos`), RTKLIB manual 2.4.2, appendix B.1.
+/// Reader of RTKLIB solution files (`.pos`), RTKLIB manual 2.4.2, appendix B.1, and as its functions outsolheads(),
+/// outsols() and outrpos() write them.
 ///
 /// Understood: latitude/longitude/height in degrees or degrees-minutes-seconds, ECEF, and east-north-up baselines with
-/// a `% ref pos` line in degrees or ECEF; time as date or as week and seconds, in GPST, UTC or JST; any of the field
-/// separators space, tab, comma, semicolon. Heights have to be
-/// ellipsoidal: a file whose header says that they are geodetic (above the geoid) is refused, since no geoid is known
-/// here.
+/// a `% ref pos` line in degrees, degrees-minutes-seconds or ECEF; time as date or as week and seconds, in GPST, UTC or
+/// JST; any of the field separators space, tab, comma, semicolon; names of columns in capitals or not; columns of
+/// velocity, also those of baselines, which the header names and the rows lack. Heights have to be ellipsoidal and
+/// positions of WGS84: a file whose header says that they are geodetic (above the geoid) or of the Tokyo datum is
+/// refused, since neither is known here; so are sentences of NMEA.
 
 #include <istream>
 #include <string>
@@ -29,9 +31,10 @@ enum class RtklibQuality {
 
 /// One row of a solution file.
 struct RtklibSolution {
-  bool solved() const { return quality != RtklibQuality::kNone; }
+  bool solved() const { return flaw.empty(); }
 
-  GnssFix fix;  ///< stamp is UNIX (UTC) time
+  std::string flaw;  ///< what a row is that holds no position, as in "rows of quality 0"; "" for all others
+  GnssFix fix;       ///< stamp is UNIX (UTC) time
   RtklibQuality quality = RtklibQuality::kSingle;
   int satellites = 0;
 };
@@ -40,8 +43,9 @@ struct RtklibSolution {
 bool isRtklibFile(const std::string& name);
 
 /// Reads a file. Throws std::runtime_error that names the file, and the line where one cannot be understood: a bad
-/// number or date, a row with fewer fields than the header names, rows without a header. Blank lines are skipped. Of a
-/// row of quality 0, an epoch without solution, only that is said.
+/// number or date, a row with fewer fields than the header names up to the ratio, rows without a header. Blank lines
+/// are skipped. Of a row of quality 0 (an epoch without solution, a time mark that is not valid) or with numbers that
+/// are not finite only that is said.
 std::vector<RtklibSolution> readRtklibPos(const std::string& path);
 
 /// The same from a stream; `name` stands for the file in messages.

@@ -7,7 +7,8 @@ import re
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 # Files in examples that a user makes, or that a run writes.
-FILES_OF_USERS = {"my_rover.yaml", "RTKLIB.pos", "report.html", "tables.md", "groups.md", "default.yaml", "init_params.yaml"}
+FILES_OF_USERS = {"my_rover.yaml", "sensor.yaml", "RTKLIB.pos", "report.html", "tables.md", "groups.md", "default.yaml",
+                  "init_params.yaml"}
 
 # Nodelets whose publishers live in a class of their own.
 PUBLISHERS = {"estimate_publisher.cpp": ["Filter"], "sensor_publisher.cpp": ["Simulator", "SimulatedRover"],
@@ -115,7 +116,8 @@ def commands():
 
 # What a script of this name only starts.
 PYTHON_PROGRAMS = {"tables": "scripts/paper_tables.py", "foreign": "scripts/foreign_drives.py",
-                   "zoo": "scripts/zoo_campaign.py", "evaluate": "scripts/evaluate_drives.py"}
+                   "import": "scripts/import_recording.py", "zoo": "scripts/zoo_campaign.py",
+                   "evaluate": "scripts/evaluate_drives.py"}
 # Programs that hand options on to an executable, and those of every campaign.
 EXECUTABLES = {"evaluate": "src/tools/evaluate.cpp"}
 CAMPAIGN = "scripts/slipnav_campaign/engine.py"

@@ -40,6 +40,17 @@ TEST(TruthGate, leavesGoodTruthAlone) {
   EXPECT_EQ(withoutJumps(TruthTrack(sparse)).samples().size(), 100U);
 }
 
+TEST(TruthGate, judgesFixes) {
+  std::vector<GnssFix> fixes;
+  for (int i = 0; i < 100; ++i) {
+    fixes.push_back({fromSeconds(i + 1), 39.6 + 1e-6 * i, -79.9, i == 40 ? 270.0 : 250.0, 1e-4 * Matrix3::Identity()});
+  }
+  const std::set<Nanoseconds> stamps = stampsWithoutJumps(fixes);
+  EXPECT_EQ(stamps.size(), 99U);
+  EXPECT_EQ(stamps.count(fixes[40].stamp), 0U);
+  EXPECT_TRUE(stampsWithoutJumps({}).empty());
+}
+
 TEST(TruthGate, wantsTimeInCommon) {
   EstimateTrack estimates(1);
   estimates[0].stamp = fromSeconds(45.0);

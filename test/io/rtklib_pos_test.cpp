@@ -131,7 +131,56 @@ TEST(RtklibPos, readsBaselinesFromTheReferencePosition) {
   EXPECT_NEAR(solutions[0].fix.longitude_deg, -79.9, 1e-9);
   EXPECT_NEAR(solutions[0].fix.height_m, 248.001, 1e-3);
   EXPECT_LT((solutions[0].fix.covariance_ned_m2.diagonal() - Vector3(4.0, 1.0, 9.0)).norm(), 1e-3);
-  EXPECT_NE(errorOf(header + row).find("x.pos:2: "), std::string::npos);
+  EXPECT_NE(errorOf(header + row).find("x.pos:2: a baseline, and no line '% ref pos"), std::string::npos);
+}
+
+/// A baseline of 111.036 m to the north from a base that is written in each way.
+RtklibSolution fromBase(const std::string& base) {
+  return parse("% ref pos   :" + base +
+               "\n%  GPST e-baseline(m) n-baseline(m) u-baseline(m) Q ns sde(m) sdn(m) sdu(m) sden(m) sdnu(m) sdue(m) "
+               "age(s) ratio ve(m/s) vn(m/s) vu(m/s) sdve sdvn sdvu sdven sdvnu sdvue\n"
+               "2020/10/15 15:00:18.000 0.0000 111.0360 -2.0000 1 9 1 2 3 0 0 0 0.00 9.9\n")
+      .at(0);
+}
+
+TEST(RtklibPos, readsTheReferencePositionAsItIsWritten) {
+  // for baselines outrpos() writes degrees, a number of full width right behind the colon; header lines name columns of
+  // velocity that outenu() does not write
+  for (const char* base : {" 39.600000000  -79.900000000   250.0000", " 39,36,00.00000, -79,54,00.00000,  250.0000"}) {
+    EXPECT_NEAR(fromBase(base).fix.latitude_deg, 39.601, 1e-7) << base;
+    EXPECT_NEAR(fromBase(base).fix.longitude_deg, -79.9, 1e-9) << base;
+    EXPECT_NEAR(fromBase(base).fix.height_m, 248.001, 1e-3) << base;
+  }
+  EXPECT_NEAR(fromBase("-39.600000000  -79.900000000   250.0000").fix.latitude_deg, -39.599, 1e-7);
+}
+
+TEST(RtklibPos, leavesABadReferenceAloneUnlessItIsNeeded) {
+  const std::string reference = "% ref pos   : none\n";
+  EXPECT_EQ(
+      parse(reference + kDegreesHeader + "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n").size(), 1U);
+  EXPECT_NE(errorOf(reference + "%  GPST e-baseline(m) n-baseline(m) u-baseline(m) Q ns a b c d e f g h\n"
+                                "2020/10/15 15:00:18.000 0 1 0 1 9 .1 .1 .1 0 0 0 0 0\n")
+                .find("x.pos:3: the line '% ref pos' has 1 numbers"),
+            std::string::npos);
+}
+
+TEST(RtklibPos, readsColumnsOfVelocityAndNamesInCapitals) {
+  const auto solutions = parse(
+      "\xEF\xBB\xBF% (LAT/LON/HEIGHT=WGS84/ELLIPSOIDAL,Q=1:FIX)\n"
+      "%GPST\tLATITUDE(DEG)\tLONGITUDE(DEG)\tHEIGHT(M)\tQ\tNS\tSDN(M)\tSDE(M)\tSDU(M)\tSDNE(M)\tSDEU(M)\tSDUN(M)\t"
+      "AGE(S)\tRATIO\tVN(M/S)\tVE(M/S)\tVU(M/S)\tSDVN\tSDVE\tSDVU\tSDVNE\tSDVEU\tSDVUN\n"
+      "2127\t399618.000\t39.6\t-79.9\t250\t1\t9\t.1\t.2\t.3\t0\t0\t0\t0.00\t9.9\t1\t2\t3\t1\t1\t1\t0\t0\t0\n");
+  ASSERT_EQ(solutions.size(), 1U);
+  EXPECT_EQ(solutions[0].fix.stamp, 1'602'774'000 * kSecond);
+  EXPECT_NEAR(solutions[0].fix.covariance_ned_m2(1, 1), 0.04, 1e-15);
+}
+
+TEST(RtklibPos, refusesWhatItWouldMistake) {
+  EXPECT_NE(errorOf("% (lat/lon/height=Tokyo/ellipsoidal,Q=1:fix)\n").find("Tokyo datum"), std::string::npos);
+  EXPECT_NE(errorOf("% (LAT/LON/HEIGHT=WGS84/GEODETIC,Q=1:FIX)\n").find("heights are geodetic"), std::string::npos);
+  EXPECT_NE(errorOf("$GPGGA,150000.00,3936.0,N,07954.0,W,4,09,1.0,250.0,M,-33.0,M,0.1,0000*00\n")
+                .find("x.pos:1: sentences of NMEA"),
+            std::string::npos);
 }
 
 TEST(RtklibPos, namesFileAndLineOfWhatItCannotRead) {
@@ -170,10 +219,19 @@ TEST(RtklibPos, refusesHeightsAboveTheGeoid) {
 TEST(RtklibPos, marksEpochsWithoutSolution) {
   const auto solutions = parse(std::string(kDegreesHeader) +
                                "2020/10/15 15:00:18.000 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 0\n"
-                               "2020/10/15 15:00:18.100 0 0 0 0 0 0 0 0 0 0 0 0 0\n");
-  ASSERT_EQ(solutions.size(), 2U);
+                               "2020/10/15 15:00:18.100 0 0 0 0 0 0 0 0 0 0 0 0 0\n"
+                               "2127   399618.200   Q=0, Time mark is not valid\n"
+                               "2020/10/15 15:00:18.300 39.6 nan 250 1 9 .1 .1 .1 0 0 0 0 0\n"
+                               "2020/10/15 15:00:18.400 39.6 -79.9 250 1 9 .1 -nan(ind) .1 0 0 0 0 0\n"
+                               "2020/10/15 15:00:18.500 39.6 -79.9 250 1 9 .1 .1 .1 0 0 0 0 nan\n");
+  ASSERT_EQ(solutions.size(), 6U);
   EXPECT_TRUE(solutions[0].solved());
-  EXPECT_FALSE(solutions[1].solved());
+  EXPECT_EQ(solutions[1].flaw, "of quality 0, without a solution");
+  EXPECT_EQ(solutions[1].quality, RtklibQuality::kNone);
+  EXPECT_EQ(solutions[2].flaw, solutions[1].flaw);
+  EXPECT_EQ(solutions[3].flaw, "with numbers that are not finite");
+  EXPECT_EQ(solutions[4].flaw, solutions[3].flaw);
+  EXPECT_TRUE(solutions[5].solved());
 }
 
 TEST(RtklibPos, isKnownByItsEndingInAnyCase) {

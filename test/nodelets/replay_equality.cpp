@@ -40,10 +40,11 @@ ros::Subscriber listenToDiagnostics(std::map<std::string, bool>& well) {
   return ros::NodeHandle().subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", 100, note);
 }
 
-TEST_F(ReplayEquality, AtTwentyTimesRealTime) {
+/// Slow enough for reports, twice a second of real time, between the start and the end of a short drive.
+TEST_F(ReplayEquality, AtFourTimesRealTimeAllAreWell) {
   std::map<std::string, bool> well;
   ros::Subscriber diagnostics = listenToDiagnostics(well);
-  const BagEvaluation offline = replayAndCompare(bag_->path(), 20.0);
+  const BagEvaluation offline = replayAndCompare(bag_->path(), 4.0);
   EXPECT_TRUE(offline.problems.empty());
   EXPECT_LT(offline.report.metrics.horizontal_max_m.value(), 1.0);
   const std::map<std::string, bool> everyone = {{"filter: /filter", true},

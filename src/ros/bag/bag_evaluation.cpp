@@ -33,7 +33,7 @@ void addTruthFrom(const std::string& path, Nanoseconds begin, OfflineRun& run, B
     if (solution.solved()) {
       run.addTruthFix(solution.fix);
     } else {
-      Alarm& rows = evaluation.problems[path + " has rows of quality 0, without a solution: left out"];
+      Alarm& rows = evaluation.problems[path + " has rows " + solution.flaw + ": left out"];
       rows.first = rows.last = begin;
       ++rows.count;
     }

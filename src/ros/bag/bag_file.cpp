@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -41,8 +43,33 @@ std::vector<std::uint8_t> unpack(const std::string& method, std::vector<std::uin
   throw BagDamage("a chunk is packed in an unknown way");
 }
 
-const std::array<std::pair<std::string, std::string>, 2> kFormatsOfRos2 = {
-    {{"\x89MCAP", "MCAP"}, {"SQLite format", "SQLite3"}}};
+/// How recordings of ROS 2 are stored.
+struct Ros2Format {
+  std::string magic;  ///< the file begins so
+  std::string name;
+  std::string types;  ///< option that says which types it holds; those before MCAP do not say it themselves
+};
+
+const std::array<Ros2Format, 2> kFormatsOfRos2 = {
+    {{"\x89MCAP", "MCAP", ""}, {"SQLite format", "SQLite3", " --src-typestore ros2_humble"}}};
+
+/// What it is, and the command that makes a recording of ROS 1 of it. @param path of the file or its folder
+std::string toConvert(const std::string& path, const Ros2Format& format) {
+  const std::filesystem::path source = std::filesystem::path(path + "/.").lexically_normal().parent_path();
+  return "is a recording of ROS 2 (" + format.name + "); convert it: pip install rosbags && rosbags-convert --src " +
+         path + format.types + " --dst " + source.stem().string() + ".bag --dst-typestore ros1_noetic";
+}
+
+/// What a folder is, in whose place a file is wanted.
+std::string complaintOfFolder(const std::string& path) {
+  std::ifstream file(path + "/metadata.yaml");
+  if (!file) {
+    return "is a folder; name the recordings in it";
+  }
+  const std::string metadata((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  const bool is_mcap = metadata.find("storage_identifier: mcap") != std::string::npos;
+  return toConvert(path, kFormatsOfRos2[is_mcap ? 0 : 1]);
+}
 
 bool startsWith(const std::vector<std::uint8_t>& bytes, const std::string& magic) {
   return bytes.size() >= magic.size() &&
@@ -55,6 +82,9 @@ BagFields takeFields(ByteReader& bytes) { return BagFields(bytes.part(bytes.numb
 }  // namespace
 
 BagFile::BagFile(const std::string& path) : path_(path), file_(path) {
+  if (std::filesystem::is_directory(path)) {
+    fail(complaintOfFolder(path));
+  }
   if (!file_.isOpen()) {
     fail("cannot be read");
   }
@@ -68,9 +98,9 @@ BagFile::BagFile(const std::string& path) : path_(path), file_(path) {
 void BagFile::readAll() {
   const std::string first_line = kFirstLine;
   const std::vector<std::uint8_t> beginning = file_.take(first_line.size());
-  for (const auto& [magic, name] : kFormatsOfRos2) {
-    if (startsWith(beginning, magic)) {
-      fail("is a recording of ROS 2 (" + name + "); convert it to ROS 1, for example by rosbags-convert");
+  for (const Ros2Format& format : kFormatsOfRos2) {
+    if (startsWith(beginning, format.magic)) {
+      fail(toConvert(path_, format));
     }
   }
   if (!std::equal(beginning.begin(), beginning.end(), first_line.begin())) {

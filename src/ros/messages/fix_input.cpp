@@ -7,7 +7,7 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kKept = 20 * kSecond;  // a start is told sooner
+constexpr Nanoseconds kKept = 300 * kSecond;  // of a recording that is played fast, until a start is told
 
 }  // namespace
 

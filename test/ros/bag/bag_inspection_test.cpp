@@ -6,6 +6,7 @@
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "core/base/atomic_file.h"
@@ -14,6 +15,7 @@
 #include "ros/bag/bag_evaluation.h"
 #include "ros/bag/bag_inspection.h"
 #include "ros/simulated_bag.h"
+#include "support/sample_parameters.h"
 
 namespace slipnav {
 namespace {
@@ -139,6 +141,18 @@ TEST(BagInspection, FilesThatAreNoRecordingsAreNamed) {
     EXPECT_NE(std::string(error.what()).find("recording of ROS 2"), std::string::npos);
     EXPECT_NE(std::string(error.what()).find("rosbags-convert"), std::string::npos);
   }
+}
+
+TEST(BagInspection, FoldersAreNoRecordings) {
+  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "slipnav_ros2_drive";
+  std::filesystem::create_directory(folder);
+  EXPECT_EQ(test::messageOf<std::invalid_argument>([&folder] { readRecording({folder}); }),
+            folder.string() + ": is a folder; name the recordings in it");
+  std::ofstream(folder / "metadata.yaml") << "rosbag2_bagfile_information:\n  storage_identifier: mcap\n";
+  const std::string command = "rosbags-convert --src " + folder.string() + "/ --dst slipnav_ros2_drive.bag ";
+  EXPECT_NE(test::messageOf<std::invalid_argument>([&folder] { readRecording({folder.string() + "/"}); }).find(command),
+            std::string::npos);
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

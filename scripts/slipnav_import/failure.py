@@ -1,0 +1,5 @@
+"""What keeps from importing."""
+
+
+class Failure(Exception):
+    """One sentence: what is wrong, where, and what to do about it."""
