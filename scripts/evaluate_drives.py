@@ -65,8 +65,8 @@ def sections_of_tables(path):
 def own_parser():
     parser = Parser(prog="evaluate", usage=argparse.SUPPRESS, add_help=False, allow_abbrev=False,
                     formatter_class=lambda prog: argparse.HelpFormatter(prog, max_help_position=32, width=120))
-    options = parser.add_argument_group("Several BAGs, or folders of them, are evaluated together; --out then has a folder "
-                                        "for each, index.html and rows.csv")
+    options = parser.add_argument_group("Several BAGs, or folders of them, are evaluated together; --out then has a "
+                                        "folder for each, index.html and rows.csv")
     options.add_argument("--separate", action="store_true",
                          help="parts of a split recording are recordings of their own, and not joined")
     options.add_argument("--group", type=group, action="append", default=[], metavar="NAME=GLOB",

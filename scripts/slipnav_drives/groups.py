@@ -16,8 +16,8 @@ from slipnav_tables.statistics import median, worst  # noqa: E402
 ERRORS = tuple(key for _, key, _ in accuracy.COLUMNS_1 if key not in ("distance_m", "stop_count", "duration_s"))
 TITLES = {"forecast": f"Time to the stop as forecast, {paper.COLLECTION_S:g} s after a stop",
           "real": "Real time between stops"}
-DOUBT = ("Every interval counts by itself, for a group with a single recording has no other values. Those of one drive are "
-         "not independent: the true p values are larger.")
+DOUBT = ("Every interval counts by itself, for a group with a single recording has no other values. Those of one drive "
+         "are not independent: the true p values are larger.")
 
 
 def root_mean_square(values):
@@ -71,7 +71,8 @@ def stops_section(groups, outcomes, simulated):
     rows += [[f"paper, {row.name}", "1", row.policy] + accuracy.paper_cells(row, accuracy.COLUMNS_2)
              for row in paper.TABLE_2]
     heads = ["group", "drives", "stops by"] + [head for head, _, _ in accuracy.COLUMNS_2]
-    notes = ["Median over the recordings, in brackets the largest. How the rover was stopped, a recording does not say."]
+    notes = ["Median over the recordings, in brackets the largest. How the rover was stopped, a recording does not "
+             "say."]
     return Section("Table II: stops by group", [Table(heads, rows)], notes, data=data)
 
 

@@ -6,16 +6,18 @@ import urllib.parse
 
 from slipnav_campaign.task import Failure
 
-from .table import alarms_text, is_bad, verdict_of, worst_first
+from .table import FOUND, found_text, is_bad, verdict_of, worst_first
 
 # Heading, key in metrics.json, decimals.
-COLUMNS = (("D m", "distance_m", 0), ("stops", "stop_count", 0), ("T s", "duration_s", 0), ("ENU %", "enu_error_pct", 2),
-           ("median %", "median_error_pct", 2), ("horiz. max m", "horizontal_max_m", 2), ("final %", "final_pct", 2),
+COLUMNS = (("D m", "distance_m", 0), ("stops", "stop_count", 0), ("T s", "duration_s", 0),
+           ("ENU %", "enu_error_pct", 2), ("median %", "median_error_pct", 2), ("horiz. max m", "horizontal_max_m", 2),
+           ("final %", "final_pct", 2),
            ("wheels + gyro %", "wheel_only_error_pct", 2), ("NEES", "position_nees_mean", 2),
            ("3σ %", "coverage_3sigma_pct", 1))
 
 STYLE = """
-:root { color-scheme: light dark; --text: #222; --page: #fff; --line: #ccc; --dim: #555; --bad: #a33b00; --link: #0060a0 }
+:root { color-scheme: light dark; --text: #222; --page: #fff; --line: #ccc; --dim: #555; --bad: #a33b00;
+        --link: #0060a0 }
 @media (prefers-color-scheme: dark) {
   :root { --text: #ddd; --page: #181a1b; --line: #444; --dim: #aaa; --bad: #ff9a66; --link: #7cc4ff }
 }
@@ -27,7 +29,8 @@ th, td { border-bottom: 1px solid var(--line); padding: 0.3rem 0.6rem; text-alig
 th { font-weight: normal; color: var(--dim); vertical-align: bottom }
 td.text, th.text { text-align: left } td.bad { color: var(--bad) } a { color: var(--link) }
 .wide { overflow-x: auto } caption { text-align: left; padding-bottom: 0.5rem }
-figure { margin: 1.5rem 0 } figcaption { font-weight: bold; margin-bottom: 0.3rem } img { max-width: 100%; background: #fff }
+figure { margin: 1.5rem 0 } figcaption { font-weight: bold; margin-bottom: 0.3rem }
+img { max-width: 100%; background: #fff }
 """
 
 
@@ -46,15 +49,14 @@ def number_cell(metrics, key, decimals):
 
 
 def row(recording, outcome, directory, group):
-    failed = isinstance(outcome, Failure)
-    metrics = {} if failed else outcome.metrics
+    metrics = {} if isinstance(outcome, Failure) else outcome.metrics
     verdict = html.escape(verdict_of(outcome))
     bad = " bad" if is_bad(outcome) else ""
-    texts = [alarms_text(metrics.get(key, [])) for key in ("problems", "alarms")]
     return (f"<tr><td class=text>{linked(recording, directory)}</td><td class=text>{html.escape(group)}</td>"
             f'<td class="text{bad}">{verdict}</td>'
             + "".join(number_cell(metrics, key, decimals) for _, key, decimals in COLUMNS)
-            + "".join(f"<td class=text>{html.escape(text) or '-'}</td>" for text in texts) + "</tr>")
+            + "".join(f"<td class=text>{html.escape(found_text(outcome, kind)) or '-'}</td>" for kind in FOUND)
+            + "</tr>")
 
 
 def index_html(outcomes, directory, group_of, sections_html):

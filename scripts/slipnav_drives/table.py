@@ -6,10 +6,11 @@ import json
 
 from slipnav_campaign.task import Failure
 
-from .evaluation import NAME_WIDTH, reason
+from .evaluation import NAME_WIDTH, findings, reason
 
 # Of the processor and not of the drive: they differ from run to run.
 TIMINGS = ("forecast_ms_p50", "forecast_ms_p99", "cpu_s", "realtime_factor")
+FOUND = ("problems", "alarms")
 FAILED = "failed"
 # How a verdict begins or what it has in it, the worst first.
 VERDICTS = (FAILED, "over-confident", "worse than wheels and gyro", "stops seen but not used", "cautious", "not judged",
@@ -35,23 +36,29 @@ def text(outcomes):
     return "\n".join(lines + remarks) + "\n"
 
 
-def alarms_text(alarms):
-    return "; ".join(f"{alarm['what']} ({alarm['count']})" for alarm in alarms)
+def found_text(outcome, kind):
+    """Its problems or alarms; those of a failure as they were said."""
+    if isinstance(outcome, Failure):
+        mark = kind[:-1] + ": "
+        return "; ".join(line[len(mark):] for line in findings(outcome.said) if line.startswith(mark))
+    return "; ".join(f"{alarm['what']} ({alarm['count']})" for alarm in outcome.metrics.get(kind, []))
 
 
 def cells_of(outcome):
     """{column: text} of metrics.json, numbers with all the digits that stand there."""
     cells = {}
-    for key, value in json.loads(outcome.metrics_json, parse_float=str, parse_int=str).items():
-        if key not in TIMINGS:
-            cells[key] = alarms_text(value) if isinstance(value, list) else "" if value is None else value
+    if not isinstance(outcome, Failure):
+        for key, value in json.loads(outcome.metrics_json, parse_float=str, parse_int=str).items():
+            if key not in TIMINGS + FOUND + ("verdict",):
+                cells[key] = "" if value is None else value
     return cells
 
 
 def rows_csv(outcomes, group_of):
-    cells = {recording: {} if isinstance(outcome, Failure) else cells_of(outcome)
-             for recording, outcome in outcomes.items()}
-    columns = list(dict.fromkeys(key for found in cells.values() for key in found if key != "verdict"))
+    cells = {recording: cells_of(outcome) for recording, outcome in outcomes.items()}
+    columns = list(dict.fromkeys(key for found in cells.values() for key in found)) + list(FOUND)
+    for recording, outcome in outcomes.items():
+        cells[recording].update({kind: found_text(outcome, kind) for kind in FOUND})
     buffer = io.StringIO()
     writer = csv.writer(buffer, lineterminator="\n")
     writer.writerow(["recording", "files", "group", "verdict"] + columns)

@@ -315,6 +315,8 @@ class ProgramTest(FolderTest):
         self.assertIn("evaluate: 1 of 2 recordings failed\n", result.stderr)
         self.assertEqual([row["verdict"] for row in self.rows()],
                          ["failed: no start: the wheels fell off", "consistent"])
+        self.assertEqual(self.rows()[0]["problems"], "no wheels (3 times, 0.0 s)")
+        self.assertIn("no wheels (3 times, 0.0 s)", self.read("out", "index.html"))
 
     def test_folders_are_searched(self):
         bags = self.bags("drives/b", "drives/deep/c", "drives/a")
