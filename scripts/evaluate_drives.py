@@ -96,7 +96,7 @@ class CommandLine:
         for name, value in re.findall(r"^  --([\w-]+)( \S)?", self.help, flags=re.M):
             self.options[name] = bool(value)
         self.own_options = {action.option_strings[0][2:]: action.nargs is None for action in parser._actions}
-        self.own, self.passed, self.bags, self.unknown = [], [], [], []
+        self.own, self.passed, self.bags, self.unknown, self.unfinished = [], [], [], [], []
         self.out = None
         self.sort(list(words))
 
@@ -112,7 +112,9 @@ class CommandLine:
                 continue
             target = self.own if name in self.own_options else self.passed
             takes_value = self.own_options.get(name, self.options.get(name))
-            taken = [word] + ([words.pop(0)] if takes_value and not equals and words else [])
+            taken = [word]
+            if takes_value and not equals:
+                (taken if words else self.unfinished).append(words.pop(0) if words else word)
             if takes_value is None or not word.startswith("--"):
                 self.unknown.append(word)
             if name == "out":
@@ -128,6 +130,8 @@ class CommandLine:
             known = [f"--{name}" for name in {**self.options, **self.own_options}]
             near = difflib.get_close_matches(word.partition("=")[0], known, 1, 0.0)
             parser.error(f"unknown option '{word}', did you mean '{near[0]}'?")
+        for word in self.unfinished:
+            parser.error(f"{word} needs a value")
         for option in FOR_ONE:
             if self.has(option):
                 parser.error(f"--{option} is for one recording alone")

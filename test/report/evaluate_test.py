@@ -378,6 +378,7 @@ class ProgramTest(FolderTest):
         for arguments, words in ((["--sepparate"], "unknown option '--sepparate', did you mean '--separate'?"),
                                  (["--report"], "--report needs --out"), (["--odometry", "x"], "for one recording alone"),
                                  (["--group", "x"], "'x' is not NAME=GLOB"), (["--group", "x=y*"], "in the group 'x'"),
+                                 (["--config"], "--config needs a value"), (["--out"], "--out needs a value"),
                                  (["--simulated", "one.bag"], "'one.bag' is no tables.json of ./run tables"),
                                  (["empty"], "no recording (*.bag) in the folder 'empty'"), (["--jobs", "0"], "--jobs")):
             result = self.run_program(*bags, *arguments)
