@@ -75,14 +75,15 @@ def own_parser():
     options.add_argument("--simulated", type=sections_of_tables, metavar="FILE",
                          help="tables.json of ./run tables: its drives stand beside the groups")
     engine.add_options(options, positive_count)
-    options.add_argument("--evaluate", metavar="FILE", help="the executable (default: the one in PATH)")
+    options.add_argument("--evaluate", metavar="FILE", help="the executable (default: the one in PATH or beside this program)")
     return parser
 
 
 def without_executable(words):
     """(The executable or None, the other words)"""
     if "--evaluate" not in words[:-1]:
-        return shutil.which("evaluate"), words
+        beside = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "evaluate")
+        return shutil.which("evaluate") or beside, words
     place = words.index("--evaluate")
     return words[place + 1], words[:place] + words[place + 2:]
 
@@ -231,8 +232,8 @@ def is_for_one(line):
 def main():
     parser = own_parser()
     executable, words = without_executable(sys.argv[1:])
-    if not executable or not os.access(executable, os.X_OK):
-        parser.error(f"no executable '{executable or 'evaluate'}', name it by --evaluate")
+    if not os.access(executable, os.X_OK):
+        parser.error(f"no executable '{executable}', name it by --evaluate")
     line = CommandLine(words, executable, parser)
     if line.has("help") or "-h" in line.passed:
         print(line.help.replace("BAG [options]", "BAG... [options]", 1) + "\n" + parser.format_help().strip())
