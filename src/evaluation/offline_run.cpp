@@ -192,16 +192,16 @@ EstimateTrack OfflineRun::smoothedTrack() const {
 }
 
 /// Truth that is aligned to an estimate is aligned to this one.
-SmoothedRun OfflineRun::smoothed(const TruthAlignment& alignment, const MetricsInput& filtered) const {
+SmoothedRun OfflineRun::smoothed(const TruthAlignment& alignment, const Metrics& filtered) const {
   SmoothedRun run;
   MetricsInput input;
   run.estimates = smoothedTrack();
   run.truth = truthTrack(alignment, run.estimates, input);
   input.estimates = run.estimates;
   input.truth = run.truth;
-  input.stops = filtered.stops;
-  input.uses_stops = filtered.uses_stops;
   run.metrics = computeMetrics(input);
+  run.metrics.stop_count = filtered.stop_count;
+  run.metrics.stop_rate_pct = filtered.stop_rate_pct;
   return run;
 }
 
@@ -239,7 +239,7 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
   report.diagnostics.filter = filter_rows_.rows();
   report.diagnostics.wheel_only = input.wheel_only;
   if (history_) {
-    report.smoothed = smoothed(alignment, input);
+    report.smoothed = smoothed(alignment, report.metrics);
   }
   return report;
 }

@@ -210,7 +210,7 @@ std::string tableRow(const std::string& name, std::optional<double> threshold_m,
 
 std::string tableRows(const std::string& name, std::optional<double> threshold_m, const RunReport& report) {
   const std::string row = tableRow(name, threshold_m, report.metrics);
-  return report.smoothed ? row + tableRow(name + " (smoothed)", threshold_m, report.smoothed->metrics) : row;
+  return report.smoothed ? row + tableRow("  (smoothed)", threshold_m, report.smoothed->metrics) : row;
 }
 
 }  // namespace slipnav
