@@ -55,9 +55,15 @@ def cell(value, decimals):
 
 
 def table_row(metrics):
+    """One row for the filter, and one for the smoothed drive where there is one."""
+    smoothed = metrics.get("smoothed")
+    rows = {"filter": metrics, "smoothed": smoothed} if smoothed else {"": metrics}
     heads = "".join(f"<th>{html.escape(title)}</th>" for title, _, _ in COLUMNS)
-    cells = "".join(f"<td>{cell(metrics[key], decimals)}</td>" for _, key, decimals in COLUMNS)
-    return f"<div class=wide><table><tr>{heads}</tr><tr>{cells}</tr></table></div>"
+    named = "<th></th>" if smoothed else ""
+    lines = "".join("<tr>" + (f"<th>{name}</th>" if smoothed else "")
+                    + "".join(f"<td>{cell(row.get(key), decimals)}</td>" for _, key, decimals in COLUMNS) + "</tr>"
+                    for name, row in rows.items())
+    return f"<div class=wide><table><tr>{named}{heads}</tr>{lines}</table></div>"
 
 
 def findings(title, alarms):
@@ -77,8 +83,9 @@ def verdict(metrics):
 
 
 def all_metrics(metrics):
+    figures = {**metrics, **{f"smoothed: {key}": value for key, value in metrics.get("smoothed", {}).items()}}
     rows = "".join(f"<tr><td style='text-align:left'>{html.escape(key)}</td><td>{'-' if value is None else value:}</td>"
-                   "</tr>" for key, value in metrics.items() if not isinstance(value, list))
+                   "</tr>" for key, value in figures.items() if not isinstance(value, (list, dict)))
     return f"<details><summary>All figures of metrics.json</summary><table>{rows}</table></details>"
 
 

@@ -13,7 +13,7 @@ STANDSTILL_GAP_S = 0.5
 class RunData:
     """The files of one run as arrays by column; a table without rows is empty but has its columns.
 
-    `t` is counted from the first estimate.
+    `t` is counted from the first estimate. `smoothed` is None for a run without --smooth.
     """
 
     def __init__(self, directory):
@@ -38,6 +38,10 @@ class RunData:
         self.timeline["t"] = self.timeline["t"] - self.start
         covered = (self.truth["t"] >= 0.0) & (self.truth["t"] <= self.timeline["t"][-1])
         self.truth = {name: column[covered] for name, column in self.truth.items()}
+        self.smoothed = None
+        if os.path.exists(os.path.join(directory, "smoothed.csv")):
+            self.smoothed = table("smoothed.csv")
+            self.smoothed["t"] = self.smoothed["t"] - self.start
 
     def stops(self):
         """Standstills as (begin, end, east, north)."""
@@ -47,8 +51,11 @@ class RunData:
 
     def errors(self):
         """East, north and up error at each epoch of the timeline; NaN without truth."""
-        line = self.timeline
-        return np.stack([line["est_" + axis] - line["truth_" + axis] for axis in "enu"])
+        return errors_of(self.timeline)
+
+
+def errors_of(line):
+    return np.stack([line["est_" + axis] - line["truth_" + axis] for axis in "enu"])
 
 
 def standstills(timeline):

@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from . import palette
-from .run_data import thinned
+from .run_data import errors_of, thinned
 
 AXIS_NAMES = ("east", "north", "up")
 
@@ -24,6 +24,9 @@ def ground_track(run):
               label="wheels and gyro alone")
     axes.plot(*thinned(run.truth["e"], run.truth["n"]), color=palette.TRUTH, lw=3, label="truth")
     axes.plot(*thinned(line["est_e"], line["est_n"]), color=palette.ESTIMATE, lw=1.2, label="estimate")
+    if run.smoothed:
+        axes.plot(*thinned(run.smoothed["est_e"], run.smoothed["est_n"]), color=palette.ERROR, lw=1, ls="--",
+                  label="smoothed")
     stops = run.stops()
     axes.plot([stop[2] for stop in stops], [stop[3] for stop in stops], "o", color=palette.STOP, ms=5,
               label=f"stops ({len(stops)})", ls="none")
@@ -43,11 +46,20 @@ def position_errors(run):
         time, error, bound = thinned(run.timeline["t"], error, 3.0 * run.timeline["sigma_" + axis])
         axes.fill_between(time, -bound, bound, color=palette.SAFE, alpha=0.35, lw=0, label="±3σ")
         axes.plot(time, error, color=palette.ESTIMATE, lw=1, label="error")
+        if run.smoothed:
+            draw_smoothed_error(axes, run.smoothed, axis)
         shade_standstill(axes, run)
         axes.set_ylabel(name + " [m]")
         axes.grid(alpha=0.3)
     if np.isnan(errors).all():
         all_axes[0].set_title("no truth in this recording: bounds only")
-    all_axes[0].legend(loc="upper left", ncol=2)
+    all_axes[0].legend(loc="upper left", ncol=4)
     all_axes[-1].set_xlabel("time [s]; grey: stops")
     return figure
+
+
+def draw_smoothed_error(axes, smoothed, axis):
+    time, error, bound = thinned(smoothed["t"], errors_of(smoothed)["enu".index(axis)], 3.0 * smoothed["sigma_" + axis])
+    axes.plot(time, error, color=palette.ERROR, lw=1, label="smoothed")
+    axes.plot(time, bound, color=palette.ERROR, lw=0.8, ls=":", label="its ±3σ")
+    axes.plot(time, -bound, color=palette.ERROR, lw=0.8, ls=":")

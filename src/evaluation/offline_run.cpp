@@ -169,7 +169,7 @@ EstimateTrack OfflineRun::smoothedTrack() const {
   EstimateTrack track;
   auto filtered = estimates_.begin();
   auto wheels = filter_rows_.rows().begin();
-  double wheel_speed_mps = 0.0;
+  std::optional<double> wheel_speed_mps;
   for (const SmoothedState& epoch : history_->smooth()) {
     const Nanoseconds stamp = epoch.nav.stamp;
     filtered = std::find_if(filtered, estimates_.end(), [stamp](const auto& e) { return e.stamp >= stamp; });
@@ -183,24 +183,25 @@ EstimateTrack OfflineRun::smoothedTrack() const {
     const Output out = output_->make(estimate, epoch.P);
     const double speed_mps = out.velocity_flu_mps.x();
     const bool stationary = filtered != estimates_.end() && filtered->stationary;
+    const bool slips = wheel_speed_mps && !stationary;
     track.push_back({stamp, out.position_enu_m, out.pose_covariance.topLeftCorner<3, 3>(), out.q_flu_to_enu, speed_mps,
-                     stationary ? std::nullopt : slipRatio(speed_mps, wheel_speed_mps, kSlowestSpeedForSlip_mps),
+                     slips ? slipRatio(speed_mps, *wheel_speed_mps, kSlowestSpeedForSlip_mps) : std::nullopt,
                      stationary});
   }
   return track;
 }
 
 /// Truth that is aligned to an estimate is aligned to this one.
-SmoothedRun OfflineRun::smoothed(const TruthAlignment& alignment, const MetricsInput& filtered) const {
+SmoothedRun OfflineRun::smoothed(const TruthAlignment& alignment, const Metrics& filtered) const {
   SmoothedRun run;
   MetricsInput input;
   run.estimates = smoothedTrack();
   run.truth = truthTrack(alignment, run.estimates, input);
   input.estimates = run.estimates;
   input.truth = run.truth;
-  input.stops = filtered.stops;
-  input.uses_stops = filtered.uses_stops;
   run.metrics = computeMetrics(input);
+  run.metrics.stop_count = filtered.stop_count;
+  run.metrics.stop_rate_pct = filtered.stop_rate_pct;
   return run;
 }
 
@@ -238,7 +239,7 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
   report.diagnostics.filter = filter_rows_.rows();
   report.diagnostics.wheel_only = input.wheel_only;
   if (history_) {
-    report.smoothed = smoothed(alignment, input);
+    report.smoothed = smoothed(alignment, report.metrics);
   }
   return report;
 }

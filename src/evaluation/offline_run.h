@@ -58,7 +58,7 @@ class OfflineRun {
   void startWheelOnly(const Output& out);
   TruthTrack truthTrack(const TruthAlignment& alignment, const EstimateTrack& estimates, MetricsInput& input) const;
   EstimateTrack smoothedTrack() const;
-  SmoothedRun smoothed(const TruthAlignment& alignment, const MetricsInput& filtered) const;
+  SmoothedRun smoothed(const TruthAlignment& alignment, const Metrics& filtered) const;
   std::optional<double> slipOf(const Estimate& estimate) const;
 
   Config config_;

@@ -247,10 +247,10 @@ std::string tableRow(const std::string& name, std::optional<double> threshold_m,
 std::string tableRows(const std::string& name, std::optional<double> threshold_m, const RunReport& report) {
   std::string rows = tableRow(name, threshold_m, report.metrics);
   if (report.smoothed) {
-    rows += tableRow(name + " (smoothed)", threshold_m, report.smoothed->metrics);
+    rows += tableRow("  (smoothed)", threshold_m, report.smoothed->metrics);
   }
   for (const OtherTrack& other : report.others) {
-    rows += tableRow(other.name, threshold_m, other.metrics);
+    rows += tableRow("  " + other.name, threshold_m, other.metrics);
   }
   return rows;
 }

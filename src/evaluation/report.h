@@ -45,7 +45,7 @@ void writeForecastsCsv(const std::string& path, const std::vector<ForecastRow>& 
 struct SmoothedRun {
   EstimateTrack estimates;
   TruthTrack truth;  ///< aligned to these estimates, where it is aligned at all
-  Metrics metrics;   ///< errors, consistency and stops; no counters
+  Metrics metrics;   ///< errors and consistency; stops are those of the filter, counters none
 };
 
 /// All that a run leaves in its output directory.
@@ -73,7 +73,8 @@ void writeRunReport(const std::string& directory, const RunReport& report);
 std::string tableHeader();
 /// The row under it. `-` stands for what is not known.
 std::string tableRow(const std::string& name, std::optional<double> threshold_m, const Metrics& metrics);
-/// That of the run, below it `NAME (smoothed)` where it was smoothed, and one for each track that it was compared with.
+/// That of the run, below it one named `(smoothed)` where it was smoothed, and one for each track that it was compared
+/// with.
 std::string tableRows(const std::string& name, std::optional<double> threshold_m, const RunReport& report);
 
 }  // namespace slipnav

@@ -3,14 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <vector>
 
 #include "config/config.h"
-#include "evaluation/simulated_drive.h"
+#include "evaluation/simulated_run.h"
 #include "slipnav/core/ekf/engine/filter_history.h"
 #include "slipnav/core/navigation/pipeline.h"
 
@@ -212,6 +214,30 @@ TEST_F(SmoothedDrives, TheFilterDoesNotKnowThatItIsWatched) {
     ASSERT_EQ(unwatched.filtered[i].nav.v_eb_n, drives_[0].filtered[i].nav.v_eb_n);
   }
   EXPECT_TRUE(unwatched.smoothed.empty());
+}
+
+TEST(SmoothedRun, StandsInTheReportBesideTheFilter) {
+  Config config;
+  config.simulator.drive.distance_m = 30.0;
+  const std::unique_ptr<StopPolicy> stops = makeStopPolicy("periodic:15:3", config.stop);
+  const RunReport report = simulateAndMeasure(config, *stops, {}, false, true).run;
+  ASSERT_TRUE(report.smoothed);
+  const EstimateSample& last = report.smoothed->estimates.back();
+  EXPECT_EQ(last.stamp, report.estimates.back().stamp);
+  EXPECT_LT((last.position_enu_m - report.estimates.back().position_enu_m).norm(), 1e-9);
+  EXPECT_LT((last.covariance_enu_m2 - report.estimates.back().covariance_enu_m2).norm(), 1e-12);
+  EXPECT_EQ(report.smoothed->estimates.front().stamp, report.estimates.front().stamp);
+  EXPECT_EQ(report.smoothed->metrics.stop_count, report.metrics.stop_count);
+  EXPECT_LT(*report.smoothed->metrics.horizontal_max_m, *report.metrics.horizontal_max_m);
+  std::size_t slips = 0;
+  for (const EstimateSample& sample : report.smoothed->estimates) {
+    const auto filtered = interpolate(report.estimates, sample.stamp, 1.0);
+    EXPECT_EQ(sample.stationary, filtered->stationary);
+    EXPECT_FALSE(sample.stationary && sample.slip);
+    slips += sample.slip ? 1 : 0;
+  }
+  EXPECT_GT(2 * slips, report.smoothed->estimates.size());
+  EXPECT_FALSE(simulateAndMeasure(config, *makeStopPolicy("periodic:15:3", config.stop), {}, false).run.smoothed);
 }
 
 }  // namespace

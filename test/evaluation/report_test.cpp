@@ -299,7 +299,7 @@ TEST(Table, hasASecondRowForTheSmoothedDrive) {
   report.smoothed.emplace();
   report.smoothed->metrics.rms_up_m = 1.0;
   EXPECT_EQ(tableRows("Test1", 5.0, report),
-            tableRow("Test1", 5.0, report.metrics) + tableRow("Test1 (smoothed)", 5.0, report.smoothed->metrics));
+            tableRow("Test1", 5.0, report.metrics) + tableRow("  (smoothed)", 5.0, report.smoothed->metrics));
 }
 
 }  // namespace

@@ -66,7 +66,8 @@ class ReportTest(unittest.TestCase):
     def setUpClass(cls):
         cls.directory = tempfile.mkdtemp(prefix="slipnav_report_")
         subprocess.run(
-            [os.environ["SLIPNAV_SIMULATE"], "--distance", "25", "--seed", "3", "--out", cls.directory],
+            [os.environ["SLIPNAV_SIMULATE"], "--distance", "25", "--seed", "3", "--smooth", "--out",
+             cls.directory],
             check=True, stdout=subprocess.DEVNULL,
         )
         write_forecasts(cls.directory, RunData(cls.directory).start)
@@ -96,7 +97,7 @@ class ReportTest(unittest.TestCase):
         self.assertLess(self.seconds, MOST_SECONDS)
 
     def test_page_holds_every_figure_and_each_shows_its_colours(self):
-        wanted = {"track": ("ESTIMATE", "TRUTH", "DEAD_RECKONING", "STOP"), "errors": ("ESTIMATE",), "slip": ("TEXT",),
+        wanted = {"track": ("ESTIMATE", "TRUTH", "DEAD_RECKONING", "STOP"), "errors": ("ESTIMATE", "ERROR"), "slip": ("TEXT",),
                   "forecast": ("ERROR", "ESTIMATE"), "velocity": ("ESTIMATE", "TRUTH", "DEAD_RECKONING"),
                   "biases": ("ESTIMATE", "ERROR", "STOP"), "consistency": ("ESTIMATE",)}
         found = re.findall(r'<figure id=(\w+)>.*?base64,([^"]+)"', self.page())
@@ -117,10 +118,20 @@ class ReportTest(unittest.TestCase):
         self.assertEqual(cells[0], f"{self.metrics['distance_m']:.0f}")
         self.assertEqual(cells[1], str(self.metrics["stop_count"]))
         self.assertEqual(cells[3], f"{self.metrics['enu_error_pct']:.2f}")
+        self.assertEqual(cells[len(page.COLUMNS) + 3], f"{self.metrics['smoothed']['enu_error_pct']:.2f}")
+
+    def test_a_run_without_smoothing_has_one_row_and_no_smoothed_curve(self):
+        plain = {key: value for key, value in self.metrics.items() if key != "smoothed"}
+        self.assertEqual(page.table_row(plain).count("<tr>"), 2)
+        run = RunData(self.directory)
+        run.smoothed = None
+        for figure in (tracks.ground_track(run), tracks.position_errors(run)):
+            labels = [line.get_label() for line in figure.axes[0].get_lines()]
+            self.assertNotIn("smoothed", labels)
 
     def test_ground_track(self):
         axes = tracks.ground_track(self.run_data).axes[0]
-        for label in ("estimate", "truth", "wheels and gyro alone"):
+        for label in ("estimate", "smoothed", "truth", "wheels and gyro alone"):
             east, north = curve(axes, label).get_data()
             self.assertGreater(len(east), 100)
             self.assertGreater(np.ptp(east) + np.ptp(north), 20.0, label)
@@ -134,6 +145,10 @@ class ReportTest(unittest.TestCase):
             error = error[np.isfinite(error)]
             self.assertAlmostEqual(np.sqrt(np.mean(error**2)), self.metrics[key], delta=0.2 * self.metrics[key] + 0.003)
             self.assertEqual(len([c for c in axes.collections if c.get_label() == "±3σ"]), 1)
+            rms = self.metrics["smoothed"][key]
+            smoothed = curve(axes, "smoothed").get_ydata()
+            smoothed = smoothed[np.isfinite(smoothed)]
+            self.assertAlmostEqual(np.sqrt(np.mean(smoothed**2)), rms, delta=0.2 * rms + 0.003)
 
     def test_slip_and_its_forecast(self):
         axes = forecasts.slip_and_forecast(self.run_data).axes[0]

@@ -3,7 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <optional>
+#include <algorithm>
+#include <array>
 #include <vector>
 
 #include "random_states.h"

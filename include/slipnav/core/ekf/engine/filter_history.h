@@ -18,7 +18,7 @@ struct SmoothedState {
 };
 
 /// A FilterEngine tells it each of its steps, see FilterEngine::keepHistory(). Ten epochs a second are kept, at 8 kB
-/// each: 75 MB for a quarter of an hour, whatever the rates of the sensors.
+/// each: 75 MB for a quarter of an hour, whatever the rates of the sensors, and as much again in smooth().
 class FilterHistory {
  public:
   explicit FilterHistory(const Planet& planet) : planet_(planet) {}
