@@ -54,13 +54,19 @@ def cell(value, decimals):
     return "-" if value is None else f"{value:.{decimals}f}"
 
 
+def further_rows(metrics):
+    """{name: errors} of what stands beside the filter: the smoothed drive, and the tracks of others."""
+    smoothed = {"smoothed": metrics["smoothed"]} if metrics.get("smoothed") else {}
+    return {**smoothed, **metrics.get("compared", {})}
+
+
 def table_row(metrics):
-    """One row for the filter, and one for the smoothed drive where there is one."""
-    smoothed = metrics.get("smoothed")
-    rows = {"filter": metrics, "smoothed": smoothed} if smoothed else {"": metrics}
+    """One row for the filter, and one for whatever stands beside it."""
+    further = further_rows(metrics)
+    rows = {"filter": metrics, **further} if further else {"": metrics}
     heads = "".join(f"<th>{html.escape(title)}</th>" for title, _, _ in COLUMNS)
-    named = "<th></th>" if smoothed else ""
-    lines = "".join("<tr>" + (f"<th>{name}</th>" if smoothed else "")
+    named = "<th></th>" if further else ""
+    lines = "".join("<tr>" + (f"<th>{html.escape(name)}</th>" if further else "")
                     + "".join(f"<td>{cell(row.get(key), decimals)}</td>" for _, key, decimals in COLUMNS) + "</tr>"
                     for name, row in rows.items())
     return f"<div class=wide><table><tr>{named}{heads}</tr>{lines}</table></div>"
@@ -83,8 +89,9 @@ def verdict(metrics):
 
 
 def all_metrics(metrics):
-    figures = {**metrics, **{f"smoothed: {key}": value for key, value in metrics.get("smoothed", {}).items()}}
-    rows = "".join(f"<tr><td style='text-align:left'>{html.escape(key)}</td><td>{'-' if value is None else value:}</td>"
+    figures = {**metrics, **{f"{name}: {key}": value for name, row in further_rows(metrics).items()
+                             for key, value in row.items()}}
+    rows = "".join(f"<tr><td style='text-align:left'>{html.escape(key)}</td><td>{'-' if value is None else value}</td>"
                    "</tr>" for key, value in figures.items() if not isinstance(value, (list, dict)))
     return f"<details><summary>All figures of metrics.json</summary><table>{rows}</table></details>"
 

@@ -13,7 +13,8 @@ STANDSTILL_GAP_S = 0.5
 class RunData:
     """The files of one run as arrays by column; a table without rows is empty but has its columns.
 
-    `t` is counted from the first estimate. `smoothed` is None for a run without --smooth.
+    `t` is counted from the first estimate. `smoothed` is None for a run without --smooth; `compared` has the tracks of
+    others by their names.
     """
 
     def __init__(self, directory):
@@ -42,6 +43,9 @@ class RunData:
         if os.path.exists(os.path.join(directory, "smoothed.csv")):
             self.smoothed = table("smoothed.csv")
             self.smoothed["t"] = self.smoothed["t"] - self.start
+        self.compared = {name: table(f"compare_{name}.csv") for name in self.metrics.get("compared", {})}
+        for track in self.compared.values():
+            track["t"] = track["t"] - self.start
 
     def stops(self):
         """Standstills as (begin, end, east, north)."""

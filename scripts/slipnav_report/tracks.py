@@ -1,5 +1,7 @@
 """Figures of where the rover was: ground track and position error."""
 
+import itertools
+
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -7,6 +9,7 @@ from . import palette
 from .run_data import errors_of, thinned
 
 AXIS_NAMES = ("east", "north", "up")
+OTHER_STYLES = ("-.", ":", "--")  # of tracks that the estimate is compared with
 
 
 def shade_standstill(axes, run):
@@ -27,6 +30,8 @@ def ground_track(run):
     if run.smoothed:
         axes.plot(*thinned(run.smoothed["est_e"], run.smoothed["est_n"]), color=palette.ERROR, lw=1, ls="--",
                   label="smoothed")
+    for (name, track), style in zip(run.compared.items(), itertools.cycle(OTHER_STYLES)):
+        axes.plot(*thinned(track["est_e"], track["est_n"]), color=palette.TEXT, lw=1, ls=style, label=name)
     stops = run.stops()
     axes.plot([stop[2] for stop in stops], [stop[3] for stop in stops], "o", color=palette.STOP, ms=5,
               label=f"stops ({len(stops)})", ls="none")
@@ -48,6 +53,9 @@ def position_errors(run):
         axes.plot(time, error, color=palette.ESTIMATE, lw=1, label="error")
         if run.smoothed:
             draw_smoothed_error(axes, run.smoothed, axis)
+        for (name, track), style in zip(run.compared.items(), itertools.cycle(OTHER_STYLES)):
+            axes.plot(*thinned(track["t"], errors_of(track)["enu".index(axis)]), color=palette.TEXT, lw=1, ls=style,
+                      label=name)
         shade_standstill(axes, run)
         axes.set_ylabel(name + " [m]")
         axes.grid(alpha=0.3)

@@ -129,6 +129,19 @@ class ReportTest(unittest.TestCase):
             labels = [line.get_label() for line in figure.axes[0].get_lines()]
             self.assertNotIn("smoothed", labels)
 
+    def test_tracks_of_others_have_a_row_and_curves(self):
+        metrics = {**self.metrics, "compared": {"vio": {**self.metrics["smoothed"], "enu_error_pct": 98.76}}}
+        row = page.table_row(metrics)
+        self.assertEqual(row.count("<tr>"), 4)
+        self.assertIn("<th>vio</th>", row)
+        self.assertIn("<td>98.76</td>", row)
+        run = RunData(self.directory)
+        run.compared = {"vio": {key: values + (0.5 if key == "est_e" else 0.0) for key, values in run.smoothed.items()}}
+        line = curve(tracks.ground_track(run).axes[0], "vio")
+        np.testing.assert_allclose(line.get_xdata(), run.smoothed["est_e"] + 0.5)
+        east = curve(tracks.position_errors(run).axes[0], "vio").get_ydata()
+        np.testing.assert_allclose(east, run.smoothed["est_e"] - run.smoothed["truth_e"] + 0.5)
+
     def test_ground_track(self):
         axes = tracks.ground_track(self.run_data).axes[0]
         for label in ("estimate", "smoothed", "truth", "wheels and gyro alone"):
