@@ -250,7 +250,7 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
 }
 
 void FilterEngine::endGap(const InsStep& step, const NavigationState& before) {
-  unseen_motion_.begin(state_, std::min(step.gap_s, kLongestGap_s), P_);
+  unseen_motion_.begin(state_, std::min(step.gap_s, kLongestGap_s), runaway_.fastest_mps(), P_);
   if (step.gap_s > setup_.filter.max_wheel_interval_s && step.gap_s <= kLongestGap_s &&
       !wheels_.hasUpTo(step.start + fromSeconds(step.gap_s))) {
     UnseenMotion::allowForStandstill(before, state_, P_);

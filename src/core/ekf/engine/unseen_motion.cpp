@@ -10,16 +10,21 @@ namespace {
 
 constexpr double kSettling_s = 10.0;
 constexpr int kAgreements = 10;  // a second of standstill, as a rule
+constexpr double kFaster = 2.0;  // than it has ever gone
 
 }  // namespace
 
-void UnseenMotion::begin(const NavigationState& state, double gap_s, ErrorCovariance& P) {
+void UnseenMotion::begin(const NavigationState& state, double gap_s, double fastest_mps, ErrorCovariance& P) {
   const double turn = degToRad(params_.gap_rate_std_deg_per_s) * gap_s;
-  const double speed = params_.gap_accel_std_mps2 * gap_s;
+  const double accel = params_.gap_accel_std_mps2;
+  const double limit = kFaster * fastest_mps;
+  const double speeding_up_s = fastest_mps > 0.0 && accel * gap_s > limit ? limit / accel : gap_s;
+  const double speed = accel * speeding_up_s;
+  const double way = speed * (gap_s - 0.5 * speeding_up_s);
   doubt_.tilt_variance = square(std::min(turn, degToRad(params_.gap_max_tilt_deg)));
   doubt_.speed_variance = square(speed);
   P(kAttitude + 2, kAttitude + 2) += square(turn);
-  P.diagonal().segment<3>(kPosition).array() += square(0.5 * speed * gap_s);
+  P.diagonal().segment<3>(kPosition).array() += square(way);
   doubt_.by_wheels_until = state.stamp + fromSeconds(kSettling_s);
   doubt_.agreements = 0;
   widen(P);

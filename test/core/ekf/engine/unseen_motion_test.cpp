@@ -27,23 +27,34 @@ class UnseenMotionTest : public ::testing::Test {
 
 TEST_F(UnseenMotionTest, AddsWhatMayHaveHappened) {
   UnseenMotion unseen(params_);
-  unseen.begin(state_, 1.0, P_);
+  unseen.begin(state_, 1.0, 0.0, P_);
   EXPECT_NEAR(sigma(kAttitude), degToRad(2.0), 1e-12);
   EXPECT_NEAR(sigma(kAttitude + 2), degToRad(2.0), 1e-12);
   EXPECT_NEAR(sigma(kVelocity), 0.5, 1e-12);
   EXPECT_NEAR(sigma(kPosition), 0.25, 1e-12);
 }
 
+/// A minute of silence, as of a clock that was set ahead, is no minute of speeding up.
+TEST_F(UnseenMotionTest, AVehicleGoesAsFastAsItDoes) {
+  UnseenMotion unseen(params_);
+  unseen.begin(state_, 60.0, 0.8, P_);
+  EXPECT_NEAR(sigma(kVelocity), 1.6, 1e-12);
+  EXPECT_NEAR(sigma(kPosition), 1.6 * (60.0 - 1.6), 1e-9) << "3.2 s to 1.6 m/s, and then on";
+  P_.setZero();
+  unseen.begin(state_, 1.0, 0.8, P_);
+  EXPECT_NEAR(sigma(kPosition), 0.25, 1e-12);
+}
+
 TEST_F(UnseenMotionTest, TheGroundLimitsTheTiltButNotTheHeading) {
   UnseenMotion unseen(params_);
-  unseen.begin(state_, 5.0, P_);
+  unseen.begin(state_, 5.0, 0.0, P_);
   EXPECT_NEAR(sigma(kAttitude + 1), degToRad(3.0), 1e-12);
   EXPECT_NEAR(sigma(kAttitude + 2), degToRad(10.0), 1e-12);
 }
 
 TEST_F(UnseenMotionTest, SoonAfterAGapAContradictionCastsDoubtOnTiltAndVelocity) {
   UnseenMotion unseen(params_);
-  unseen.begin(state_, 1.0, P_);
+  unseen.begin(state_, 1.0, 0.0, P_);
   P_.setZero();
   unseen.doubt(state_.stamp + fromSeconds(9.9), P_);
   EXPECT_NEAR(sigma(kAttitude), degToRad(2.0), 1e-12);
@@ -62,7 +73,7 @@ TEST_F(UnseenMotionTest, AStandstillCastsDoubtUntilItHasBeenAgreedToForAWhile) {
   UnseenMotion unseen(params_);
   unseen.standstill(false, P_);
   EXPECT_TRUE(P_.isZero());
-  unseen.begin(state_, 1.0, P_);
+  unseen.begin(state_, 1.0, 0.0, P_);
   unseen.standstill(true, P_);
   P_.setZero();
   unseen.standstill(false, P_);

@@ -14,8 +14,10 @@ class UnseenMotion {
   /// There was no gap.
   void reset() { doubt_ = Doubt{}; }
 
-  /// A gap of `gap_s` ends at `state`: what is known of attitude, velocity and position becomes less certain.
-  void begin(const NavigationState& state, double gap_s, ErrorCovariance& P);
+  /// A gap of `gap_s` ends at `state`: what is known of attitude, velocity and position becomes less certain. A vehicle
+  /// speeds up for a while, and then goes as fast as it does.
+  /// @param fastest_mps the fastest that its wheels have turned; 0 before they have
+  void begin(const NavigationState& state, double gap_s, double fastest_mps, ErrorCovariance& P);
 
   /// The wheels were silent as well: it may be that no time has passed, only the clock was set, and that the vehicle
   /// has not gone the way from `before` to `after`.
