@@ -51,7 +51,8 @@ struct MetricsOptions {
 
 /// Names equal the keys of `metrics.json`. None where a figure cannot be told, such as errors without truth.
 struct Metrics {
-  std::optional<double> distance_m;           ///< D, along truth, over the epochs of the estimate
+  /// D, along truth, over the epochs of the estimate; without truth that of addLoopClosure()
+  std::optional<double> distance_m;
   double duration_s = 0.0;                    ///< T, first to last epoch of the estimate
   std::int64_t stop_count = 0;                ///< see findStops()
   std::optional<double> stop_rate_pct;        ///< 100·(time in stops)/T
@@ -80,13 +81,20 @@ struct Metrics {
   std::optional<double> forecast_ms_p99;
   std::optional<double> cpu_s;
   std::optional<double> realtime_factor;
-  std::int64_t truth_left_out = 0;  ///< rows of truth far off the rows about them, see withoutJumps()
-  std::optional<double> final_pct;  ///< 100·horizontal_final_m/D
-  std::int64_t stops_seen = 0;      ///< standstills by wheels and IMU, see StopLedger
-  std::int64_t stops_used = 0;      ///< of these, with an accepted zero-velocity update
-  std::string verdict;              ///< see verdictOf()
-  Alarms problems;                  ///< of the recording: messages that could not be used, and the like
-  Alarms alarms;                    ///< what the monitoring of sensors and filter has named
+  std::int64_t truth_left_out = 0;    ///< rows of truth far off the rows about them, see withoutJumps()
+  std::optional<double> final_pct;    ///< 100·horizontal_final_m/D
+  std::int64_t stops_seen = 0;        ///< standstills by wheels and IMU, see StopLedger
+  std::int64_t stops_used = 0;        ///< of these, with an accepted zero-velocity update
+  std::optional<double> threshold_m;  ///< ε as configured, of a run that forecasts
+  /// Horizontal distance between the first and the last estimate, of a drive that returns to its start; so are those
+  /// below.
+  std::optional<double> closure_m;
+  std::optional<double> closure_up_m;      ///< last minus first height
+  std::optional<double> closure_pct;       ///< 100·closure_m/D
+  std::optional<double> closure_3sigma_m;  ///< what the 3σ ellipse has grown by since the start, its longer half axis
+  std::string verdict;                     ///< see verdictOf()
+  Alarms problems;                         ///< of the recording: messages that could not be used, and the like
+  Alarms alarms;                           ///< what the monitoring of sensors and filter has named
 };
 
 /// Throws std::invalid_argument when the estimate is empty or not in order of stamp.

@@ -235,6 +235,9 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
   input.stops = stops_.counts(estimates_.front().stamp, estimates_.back().stamp);
   input.uses_stops = config_.filter.uses("zupt");
   report.metrics = computeMetrics(input);
+  if (forecasts_) {
+    report.metrics.threshold_m = config_.forecast.threshold_m;
+  }
   report.metrics.alarms = pipeline_.health().alarms();
   report.diagnostics.filter = filter_rows_.rows();
   report.diagnostics.wheel_only = input.wheel_only;

@@ -156,6 +156,11 @@ std::string metricsJson(const Metrics& metrics, const Metrics* smoothed, const s
   json.addCount("stops_seen", metrics.stops_seen);
   json.addCount("stops_used", metrics.stops_used);
   json.addCount("truth_left_out", metrics.truth_left_out);
+  json.addNumber("threshold_m", metrics.threshold_m);
+  json.addNumber("closure_m", metrics.closure_m);
+  json.addNumber("closure_up_m", metrics.closure_up_m);
+  json.addNumber("closure_pct", metrics.closure_pct);
+  json.addNumber("closure_3sigma_m", metrics.closure_3sigma_m);
   json.addText("verdict", metrics.verdict);
   json.addAlarms("problems", metrics.problems);
   json.addAlarms("alarms", metrics.alarms);

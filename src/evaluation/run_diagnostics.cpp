@@ -89,7 +89,7 @@ void writeSlipForecastsCsv(const std::string& path, const std::vector<SlipForeca
 void writeNeesCsv(const std::string& path, const EstimateTrack& estimates, const TruthTrack& truth) {
   AtomicFile file(path);
   std::ostream& out = file.stream();
-  out << "t,nees\n" << std::setprecision(kDigits);
+  out << "t,nees,truth_sigma_e,truth_sigma_n,truth_sigma_u\n" << std::setprecision(kDigits);
   for (const TruthSample& sample : truth.samples()) {
     const auto estimate = interpolate(estimates, sample.stamp, truth.maxGap());
     if (!estimate) {
@@ -98,7 +98,9 @@ void writeNeesCsv(const std::string& path, const EstimateTrack& estimates, const
     const Eigen::LLT<Matrix3> factor(estimate->covariance_enu_m2 + sample.covariance_enu_m2);
     if (factor.info() == Eigen::Success) {
       const Vector3 error = estimate->position_enu_m - sample.position_enu_m;
-      out << formatSeconds(sample.stamp) << ',' << error.dot(factor.solve(error)) << '\n';
+      out << formatSeconds(sample.stamp) << ',' << error.dot(factor.solve(error));
+      writeVector(out, sample.covariance_enu_m2.diagonal().cwiseMax(0.0).cwiseSqrt());
+      out << '\n';
     }
   }
   file.commit();

@@ -62,8 +62,8 @@ void writeFilterCsv(const std::string& path, const std::vector<FilterRow>& rows)
 void writeWheelTrackCsv(const std::string& path, const PlanarTrack& track);
 /// `slip_forecasts.csv`: t, horizon_s, mean, stddev.
 void writeSlipForecastsCsv(const std::string& path, const std::vector<SlipForecastRow>& rows);
-/// `nees.csv`: t, nees. Of the position, eᵀ(P + R)⁻¹e with three degrees of freedom and R of truth, at its
-/// epochs.
+/// `nees.csv`: t, nees, truth_sigma_e, truth_sigma_n, truth_sigma_u. Of the position, eᵀ(P + R)⁻¹e with three degrees
+/// of freedom and R of truth, at its epochs; and the roots of R's diagonal, 0 where truth does not say how good it is.
 void writeNeesCsv(const std::string& path, const EstimateTrack& estimates, const TruthTrack& truth);
 
 }  // namespace slipnav

@@ -32,9 +32,23 @@ class Text {
   std::ostringstream out_;
 };
 
+/// Of a drive without truth that is known to return.
+std::string closureOf(const Metrics& metrics) {
+  const double bound_m = metrics.closure_3sigma_m.value_or(0.0);
+  const bool is_within = *metrics.closure_m <= bound_m;
+  Text text;
+  text << (is_within ? "consistent" : "over-confident") << ": returns to its start but for " << *metrics.closure_m
+       << " m";
+  if (metrics.closure_pct) {
+    text << ", " << *metrics.closure_pct << " % of the distance";
+  }
+  text << ", 3 sigma there " << bound_m << " m";
+  return text.str();
+}
+
 std::string consistencyOf(const Metrics& metrics) {
   if (!metrics.coverage_3sigma_pct) {
-    return "not judged: no truth";
+    return metrics.closure_m ? closureOf(metrics) : "not judged: no truth";
   }
   const double nees = metrics.position_nees_mean.value_or(1.0);
   if (nees > kLargestNees || *metrics.coverage_3sigma_pct < kLeastCoverage_pct) {

@@ -10,6 +10,7 @@
 #include "config/config_options.h"
 #include "core/base/atomic_file.h"
 #include "evaluation/alarm_text.h"
+#include "evaluation/loop_closure.h"
 #include "evaluation/report.h"
 #include "evaluation/tum.h"
 #include "ros/bag/bag_evaluation.h"
@@ -32,6 +33,7 @@ CommandLine commandLine() {
       .flag("smooth", "run the drive backwards too: a second row, and smoothed.csv and smoothed.tum beside the others")
       .repeated("compare", "NAME=TOPIC|NAME=FILE.tum",
                 "poses of somebody else on the same drive: a further row, compare_NAME.csv and compare_NAME.tum")
+      .flag("returns-to-start", "the drive ends where it began: without truth it is judged by that")
       .flag("report", "plots into the same place");
   slipnav::declareConfigOptions(command_line);
   return command_line;
@@ -120,6 +122,9 @@ int run(int argc, char** argv) {
   report.others.reserve(others.size());
   for (const auto& [name, poses] : others) {
     report.others.push_back(slipnav::besideTheEstimate(name, poses, report.estimates, report.truth));
+  }
+  if (arguments.given("returns-to-start")) {
+    slipnav::addLoopClosure(report.estimates, config.filter.uses("zupt"), report.metrics);
   }
   printFindings(evaluation);
   if (arguments.given("out")) {

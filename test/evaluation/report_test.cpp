@@ -114,7 +114,8 @@ TEST_F(Report, writesBaselineAndSlipForecasts) {
 TEST_F(Report, writesTheNeesOfThePosition) {
   writeRunReport(folder_, smallReport());
   // Errors of 0.5, 0.5 and -3.25 m; variances 0.25, 4 and 9.
-  EXPECT_EQ(contentOf("nees.csv"), "t,nees\n1602774000.500000000,2.2361111\n");
+  EXPECT_EQ(contentOf("nees.csv"),
+            "t,nees,truth_sigma_e,truth_sigma_n,truth_sigma_u\n1602774000.500000000,2.2361111,0,0,0\n");
 }
 
 TEST_F(Report, leavesAllFilesAndNothingElse) {
@@ -231,6 +232,11 @@ TEST(MetricsJson, holdsEveryKeyInOrder) {
             "  \"stops_seen\": 0,\n"
             "  \"stops_used\": 0,\n"
             "  \"truth_left_out\": 0,\n"
+            "  \"threshold_m\": null,\n"
+            "  \"closure_m\": null,\n"
+            "  \"closure_up_m\": null,\n"
+            "  \"closure_pct\": null,\n"
+            "  \"closure_3sigma_m\": null,\n"
             "  \"verdict\": \"\",\n"
             "  \"problems\": [],\n"
             "  \"alarms\": []\n"
@@ -251,7 +257,8 @@ TEST(MetricsJson, givesEachKeyItsOwnFigure) {
   m.position_nees_mean = 14.5, m.coverage_3sigma_pct = 15.5, m.wheel_only_error_pct = 16.5;
   m.no_zupt_error_pct = 17.5, m.imu_samples = 18, m.wheel_samples = 19, m.rejected_samples = 20, m.forecasts = 21;
   m.forecast_ms_p50 = 22.5, m.forecast_ms_p99 = 23.5, m.cpu_s = 24.5, m.realtime_factor = 25.5;
-  m.final_pct = 26.5, m.stops_seen = 27, m.stops_used = 28;
+  m.final_pct = 26.5, m.stops_seen = 27, m.stops_used = 28, m.threshold_m = 29.5, m.closure_m = 30.5;
+  m.closure_up_m = 31.5, m.closure_pct = 32.5, m.closure_3sigma_m = 33.5;
   const std::string json = metricsJson(m);
   const std::vector<std::string> keys = {
       "distance_m",        "duration_s",         "stop_count",          "stop_rate_pct",
@@ -260,7 +267,9 @@ TEST(MetricsJson, givesEachKeyItsOwnFigure) {
       "rms_up_m",          "position_nees_mean", "coverage_3sigma_pct", "wheel_only_error_pct",
       "no_zupt_error_pct", "imu_samples",        "wheel_samples",       "rejected_samples",
       "forecasts",         "forecast_ms_p50",    "forecast_ms_p99",     "cpu_s",
-      "realtime_factor",   "final_pct",          "stops_seen",          "stops_used"};
+      "realtime_factor",   "final_pct",          "stops_seen",          "stops_used",
+      "threshold_m",       "closure_m",          "closure_up_m",        "closure_pct",
+      "closure_3sigma_m"};
   for (std::size_t i = 0; i < keys.size(); ++i) {
     EXPECT_EQ(std::floor(valueOf(json, keys[i])), static_cast<double>(i + 1)) << keys[i];
   }

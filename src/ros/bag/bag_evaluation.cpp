@@ -202,6 +202,7 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   result.diagnostics = report.diagnostics;
   result.metrics = computeMetrics(input);
   result.metrics.wheel_only_error_pct = report.metrics.wheel_only_error_pct;
+  result.metrics.threshold_m = report.metrics.threshold_m;
   result.metrics.problems = report.metrics.problems;
   result.metrics.alarms = report.metrics.alarms;
   result.metrics.realtime_factor = result.metrics.duration_s / wall_s;
