@@ -22,5 +22,5 @@ if(python_scripts)
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(DIRECTORY scripts/slipnav_campaign scripts/slipnav_drives scripts/slipnav_import scripts/slipnav_report
     scripts/slipnav_tables scripts/slipnav_zoo DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION}
-    FILES_MATCHING PATTERN "*.py")
+    FILES_MATCHING PATTERN "*.py" PATTERN "*.js" PATTERN "*.css")
 endif()

@@ -4,29 +4,31 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from . import palette
+from .plotting import band, has_values, legend_beside, level, say_why_empty, shade_standstill
 from .run_data import single_forecasts, thinned
-from .tracks import shade_standstill
 
 SIGMAS = 2.0  # of the slip band, as the paper draws it
 
 
 def slip_and_forecast(run):
-    figure, axes = plt.subplots(figsize=(9, 4.5))
+    figure, axes = plt.subplots(figsize=(10, 4.5))
     axes.plot(*thinned(run.timeline["t"], run.timeline["slip"]), ".", color=palette.TEXT, ms=2, label="slip ratio")
     table = run.slip_forecasts
     for i, rows in enumerate(single_forecasts(table)):
         time = table["t"][rows] + table["horizon_s"][rows]
         mean, spread = table["mean"][rows], SIGMAS * table["stddev"][rows]
-        axes.fill_between(time, mean - spread, mean + spread, color=palette.SAFE, alpha=0.4, lw=0,
-                          label="_" if i else f"forecast ±{SIGMAS:.0f}σ")
+        band(axes, time, mean - spread, mean + spread, color=palette.SAFE, alpha=0.4,
+             label="_" if i else f"forecast ±{SIGMAS:.0f}σ")
         axes.plot(time, mean, color=palette.ESTIMATE, lw=1.5, label="_" if i else "forecast mean")
     shade_standstill(axes, run)
     if not len(table["t"]):
-        axes.set_title("no slip was forecast in this run")
+        axes.set_title("no slip was forecast in this run: too few samples of slip before each forecast")
+    if not has_values(run.timeline["slip"]) and not len(table["t"]):
+        say_why_empty(axes, "no slip: the wheels never turned fast enough to tell it")
     axes.set_ylabel("slip ratio")
     axes.set_xlabel("time [s]; grey: stops")
     axes.grid(alpha=0.3)
-    axes.legend(loc="upper left", ncol=3)
+    legend_beside(axes)
     return figure
 
 
@@ -43,18 +45,8 @@ def growth_since_stop(run):
     return np.hypot(*(errors - reference))
 
 
-def threshold_of(table):
-    """The bound at the forecast stop times, which is the threshold; None where no forecast reaches it."""
-    found = []
-    for rows in single_forecasts(table):
-        stop_s = table["time_to_stop_s"][rows[0]]
-        if np.isfinite(stop_s) and table["horizon_s"][rows[0]] <= stop_s <= table["horizon_s"][rows[-1]]:
-            found.append(np.interp(stop_s, table["horizon_s"][rows], table["horizontal_bound_m"][rows]))
-    return float(np.median(found)) if found else None
-
-
 def predicted_and_realised(run):
-    figure, (error, countdown) = plt.subplots(2, 1, sharex=True, figsize=(9, 7), gridspec_kw={"height_ratios": (2, 1)})
+    figure, (error, countdown) = plt.subplots(2, 1, sharex=True, figsize=(10, 7), gridspec_kw={"height_ratios": (2, 1)})
     table = run.forecasts
     for i, rows in enumerate(single_forecasts(table)):
         error.plot(table["t"][rows] + table["horizon_s"][rows], table["horizontal_bound_m"][rows],
@@ -63,19 +55,22 @@ def predicted_and_realised(run):
                label="error grown since the last stop")
     error.plot(*thinned(run.timeline["t"], np.hypot(*run.errors()[:2])), color=palette.TEXT, lw=0.8, ls=":",
                label="horizontal error")
-    threshold = threshold_of(table)
-    if threshold is not None:
-        error.axhline(threshold, color=palette.TEXT, lw=1, ls="--", label=f"ε = {threshold:.2f} m")
+    threshold = run.metrics.get("threshold_m")
+    if threshold is not None and len(table["t"]):
+        level(error, threshold, color=palette.TEXT, lw=1, ls="--", label=f"ε = {threshold:g} m")
     error.set_ylabel("horizontal [m]")
-    error.legend(loc="upper left", ncol=2)
+    legend_beside(error)
     starts, first = np.unique(table["t"], return_index=True)
     countdown.plot(starts, table["time_to_stop_s"][first], ".", color=palette.ERROR, ms=3)
     countdown.set_ylabel("time to stop [s]")
     countdown.set_xlabel("time [s]; grey: stops")
     if not len(starts):
         error.set_title("no error was forecast in this run")
+        say_why_empty(countdown, "no forecast, no countdown")
+        if not has_values(run.errors()):
+            say_why_empty(error, "no forecast and no truth")
     elif not np.isfinite(table["time_to_stop_s"]).any():
-        countdown.set_title("no stop was due: within the horizon no bound came to ε")
+        say_why_empty(countdown, "no stop was due: within the horizon no bound came to ε")
     for axes in (error, countdown):
         shade_standstill(axes, run)
         axes.grid(alpha=0.3)

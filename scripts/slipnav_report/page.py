@@ -7,7 +7,7 @@ import os
 
 import matplotlib.pyplot as plt
 
-from . import filter_health, forecasts, tracks
+from . import filter_health, forecasts, interactive, tracks
 
 DPI = 110
 
@@ -31,6 +31,9 @@ COLUMNS = (
     ("up [m]", "rms_up_m", 2), ("wheels alone [%]", "wheel_only_error_pct", 2), ("without stops' updates [%]",
                                                                                  "no_zupt_error_pct", 2),
 )
+
+HINT = ("Drag over a figure to zoom: all that have a time axis follow. A double click shows the whole drive again. The "
+        "values at the cursor stand beside the curves; a click on a name hides its curve.")
 
 STYLE = """
 body { font-family: sans-serif; color: #222222; background: #ffffff; max-width: 62rem; margin: 2rem auto; padding: 0 1rem }
@@ -96,26 +99,47 @@ def all_metrics(metrics):
     return f"<details><summary>All figures of metrics.json</summary><table>{rows}</table></details>"
 
 
-def figure_block(name, title, png):
+def figure_block(name, title, png, zoomable=False):
+    """A zoomable figure has its picture only for who runs no scripts."""
     data = base64.b64encode(png).decode("ascii")
-    return (f"<figure id={name}><figcaption>{html.escape(title)}</figcaption>"
-            f'<img alt="{html.escape(title)}" src="data:image/png;base64,{data}"></figure>')
+    picture = f'<img alt="{html.escape(title)}" src="data:image/png;base64,{data}">'
+    if zoomable:
+        picture = f"<div class=panels></div><noscript>{picture}</noscript>"
+    return f"<figure id={name}><figcaption>{html.escape(title)}</figcaption>{picture}</figure>"
+
+
+def script(library, data):
+    own = interactive.read(os.path.join(os.path.dirname(__file__), "report.js"))
+    return (f"<div id=cursor></div><script>{library}</script><script type=application/json id=data>{data.text()}</script>"
+            f"<script>{own}</script>")
+
+
+def draw_figures(run, zoomable, progress):
+    """Writes the pictures; returns the blocks of the page and what its plots are drawn from."""
+    blocks, data = [], interactive.PlotData(run)
+    for name, title, draw in FIGURES:
+        progress(title)
+        figure = draw(run)
+        data.add(name, figure)
+        png = png_of(figure)
+        with open(os.path.join(run.directory, name + ".png"), "wb") as file:
+            file.write(png)
+        blocks.append(figure_block(name, title, png, zoomable))
+    return "".join(blocks), data
 
 
 def write_report(run, progress):
     """Writes NAME.png for each figure and report.html; returns the path of the latter."""
-    blocks = []
-    for name, title, draw in FIGURES:
-        progress(title)
-        png = png_of(draw(run))
-        with open(os.path.join(run.directory, name + ".png"), "wb") as file:
-            file.write(png)
-        blocks.append(figure_block(name, title, png))
+    library = interactive.library()
+    blocks, data = draw_figures(run, library is not None, progress)
+    hint = (f"<p id=hint hidden>{HINT}</p>" if library else
+            f"<p id=hint>Pictures only: {interactive.PACKAGES} were not installed when this page was made.</p>")
     name = html.escape(os.path.basename(os.path.abspath(run.directory)))
-    page = (f"<!DOCTYPE html><html lang=en><head><meta charset=utf-8><title>slipnav: {name}</title>"
-            f"<style>{STYLE}</style></head><body><h1>Run {name}</h1>{table_row(run.metrics)}{verdict(run.metrics)}"
-            f"{''.join(blocks)}"
-            f"{all_metrics(run.metrics)}</body></html>\n")
+    style = STYLE + interactive.read(os.path.join(os.path.dirname(__file__), "report.css"))
+    page = (f"<!DOCTYPE html><html lang=en><head><meta charset=utf-8>{interactive.POLICY}<title>slipnav: {name}</title>"
+            f"<style>{style}</style></head><body><h1>Run {name}</h1>{table_row(run.metrics)}{verdict(run.metrics)}"
+            f"{hint}{blocks}"
+            f"{all_metrics(run.metrics)}{script(library, data) if library else ''}</body></html>\n")
     path = os.path.join(run.directory, "report.html")
     with open(path, "w", encoding="utf-8") as file:
         file.write(page)

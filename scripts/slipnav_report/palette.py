@@ -9,6 +9,9 @@ TEXT = "#222222"
 SAFE = "#56B4E9"
 WARNING = "#F0E442"
 
+# In the place of those that are too dark on a dark page; in small letters, as matplotlib writes colours.
+ON_DARK = {ESTIMATE.lower(): "#4fb3f0", STOP.lower(): "#2cc99b", ERROR.lower(): "#ff8a3c", TEXT: "#dddddd"}
+
 # Of three axes, where each figure says which is which.
 AXES = (ESTIMATE, ERROR, STOP)
 STANDSTILL = "0.9"

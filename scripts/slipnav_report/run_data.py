@@ -90,7 +90,7 @@ def read_tum(path):
 
 def thinned(*columns):
     """The columns with as many rows as a plot can show."""
-    stride = max(1, len(columns[0]) // MOST_POINTS)
+    stride = max(1, -(-len(columns[0]) // MOST_POINTS))
     return tuple(column[::stride] for column in columns)
 
 

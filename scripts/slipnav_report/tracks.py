@@ -6,27 +6,21 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from . import palette
+from .plotting import band, legend_beside, shade_standstill
 from .run_data import errors_of, thinned
 
 AXIS_NAMES = ("east", "north", "up")
 OTHER_STYLES = ("-.", ":", "--")  # of tracks that the estimate is compared with
 
 
-def shade_standstill(axes, run):
-    """Behind what is drawn already, whose limits it keeps."""
-    limits = axes.axis()
-    for begin, end, _, _ in run.stops():
-        axes.axvspan(begin, end, color=palette.STANDSTILL, lw=0, zorder=0)
-    axes.axis(limits)
-
-
 def ground_track(run):
-    figure, axes = plt.subplots(figsize=(8, 7))
+    figure, axes = plt.subplots(figsize=(10, 7))
     line = run.timeline
     axes.plot(*thinned(run.wheel_track["east"], run.wheel_track["north"]), color=palette.DEAD_RECKONING, lw=1.2,
               label="wheels and gyro alone")
     axes.plot(*thinned(run.truth["e"], run.truth["n"]), color=palette.TRUTH, lw=3, label="truth")
-    axes.plot(*thinned(line["est_e"], line["est_n"]), color=palette.ESTIMATE, lw=1.2, label="estimate")
+    time, east, north = thinned(line["t"], line["est_e"], line["est_n"])
+    axes.plot(east, north, color=palette.ESTIMATE, lw=1.2, label="estimate")[0].times = time
     if run.smoothed:
         axes.plot(*thinned(run.smoothed["est_e"], run.smoothed["est_n"]), color=palette.ERROR, lw=1, ls="--",
                   label="smoothed")
@@ -40,16 +34,17 @@ def ground_track(run):
     axes.set_xlabel("east [m]")
     axes.set_ylabel("north [m]")
     axes.grid(alpha=0.3)
-    axes.legend()
+    legend_beside(axes)
     return figure
 
 
 def position_errors(run):
-    figure, all_axes = plt.subplots(3, 1, sharex=True, figsize=(9, 7))
+    figure, all_axes = plt.subplots(3, 1, sharex=True, figsize=(10, 7))
     errors = run.errors()
     for axes, error, axis, name in zip(all_axes, errors, "enu", AXIS_NAMES):
         time, error, bound = thinned(run.timeline["t"], error, 3.0 * run.timeline["sigma_" + axis])
-        axes.fill_between(time, -bound, bound, color=palette.SAFE, alpha=0.35, lw=0, label="±3σ")
+        band(axes, time, -bound, bound, color=palette.SAFE, alpha=0.35, label="±3σ")
+        draw_truth_noise(axes, run, axis)
         axes.plot(time, error, color=palette.ESTIMATE, lw=1, label="error")
         if run.smoothed:
             draw_smoothed_error(axes, run.smoothed, axis)
@@ -59,11 +54,21 @@ def position_errors(run):
         shade_standstill(axes, run)
         axes.set_ylabel(name + " [m]")
         axes.grid(alpha=0.3)
+        legend_beside(axes)
     if np.isnan(errors).all():
         all_axes[0].set_title("no truth in this recording: bounds only")
-    all_axes[0].legend(loc="upper left", ncol=4)
     all_axes[-1].set_xlabel("time [s]; grey: stops")
     return figure
+
+
+def draw_truth_noise(axes, run, axis):
+    """±3σ of truth by its own covariance, where that is mostly larger than the estimate's."""
+    time, sigma = run.nees["t"], run.nees.get("truth_sigma_" + axis, np.zeros(0))
+    if not len(sigma) or np.median(sigma) <= np.median(run.timeline["sigma_" + axis]):
+        return
+    time, bound = thinned(time, 3.0 * sigma)
+    for i, side in enumerate((bound, -bound)):
+        axes.plot(time, side, color=palette.TRUTH, lw=1, ls=":", label="_" if i else "±3σ of truth itself")
 
 
 def draw_smoothed_error(axes, smoothed, axis):

@@ -17,6 +17,7 @@ import sys
 import tempfile
 import time
 import unittest
+from unittest import mock
 
 import matplotlib
 
@@ -29,10 +30,11 @@ import numpy as np  # noqa: E402
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
-from slipnav_report import filter_health, forecasts, page, palette, tracks  # noqa: E402
-from slipnav_report.run_data import RunData, read_tum  # noqa: E402
+from slipnav_report import filter_health, forecasts, interactive, page, palette, tracks  # noqa: E402
+from slipnav_report.run_data import RunData, read_tum, single_forecasts  # noqa: E402
 
-MOST_BYTES = 5_000_000
+MOST_BYTES = 6_000_000
+MOST_BYTES_OF_PICTURES = 1_500_000
 MOST_SECONDS = 60.0  # for a drive of a minute on a machine that is busy; see doc/visualisation.md for what it takes
 THRESHOLD_M = 0.8
 LEAST_PIXELS = 30  # of pure colour; the edges of lines are blended
@@ -66,8 +68,8 @@ class ReportTest(unittest.TestCase):
     def setUpClass(cls):
         cls.directory = tempfile.mkdtemp(prefix="slipnav_report_")
         subprocess.run(
-            [os.environ["SLIPNAV_SIMULATE"], "--distance", "25", "--seed", "3", "--smooth", "--out",
-             cls.directory],
+            [os.environ["SLIPNAV_SIMULATE"], "--distance", "25", "--seed", "3", "--smooth",
+             "--threshold", str(THRESHOLD_M), "--out", cls.directory],
             check=True, stdout=subprocess.DEVNULL,
         )
         write_forecasts(cls.directory, RunData(cls.directory).start)
@@ -90,11 +92,120 @@ class ReportTest(unittest.TestCase):
         with open(os.path.join(self.directory, "report.html"), encoding="utf-8") as file:
             return file.read()
 
+    def data(self):
+        return json.loads(re.search(r"<script type=application/json id=data>(.*?)</script>", self.page(), re.S).group(1))
+
+    def panels(self, figure):
+        return [panel for panel in self.data()["panels"] if panel["figure"] == figure]
+
+    def values(self, panel, name):
+        """x and y of the curve of that name."""
+        columns = self.data()["columns"]
+        found = [one for one in panel["curves"] if one["name"] == name]
+        self.assertEqual(len(found), 1, f"{name} among {[one['name'] for one in panel['curves']]}")
+        return [np.array(columns[found[0][key]], dtype=float) for key in ("x", "y" if "y" in found[0] else "high")]
+
     def test_page_needs_nothing_else(self):
         text = self.page()
-        self.assertEqual(re.findall(r"https?://|<script|<link|@import|src=\"(?!data:)", text), [])
-        self.assertLess(len(text), MOST_BYTES)
+        self.assertTrue(interactive.POLICY in text)
+        self.assertIn("default-src 'none'", interactive.POLICY)  # no browser loads anything
+        own = text.replace(interactive.library() or "", "")
+        self.assertEqual(re.findall(r"https?://|<script src|<link|@import|src=\"(?!data:)", own), [])
+        self.assertLess(len(text.encode()), MOST_BYTES)
         self.assertLess(self.seconds, MOST_SECONDS)
+
+    def test_page_without_the_library_has_the_pictures(self):
+        run = RunData(self.directory)
+        with tempfile.TemporaryDirectory() as empty, mock.patch.object(interactive, "FOLDER", empty):
+            self.assertIsNone(interactive.library())
+            run.directory = empty
+            page.write_report(run, progress=lambda title: None)
+            with open(os.path.join(empty, "report.html"), encoding="utf-8") as file:
+                text = file.read()
+        self.assertEqual(len(re.findall(r"<figcaption>[^<]*</figcaption><img ", text)), len(page.FIGURES))
+        self.assertEqual(re.findall("<script|<noscript| hidden>", text), [])
+        self.assertTrue(interactive.PACKAGES in text)
+        self.assertLess(len(text.encode()), MOST_BYTES_OF_PICTURES)
+
+    @unittest.skipUnless(interactive.library(), f"{interactive.PACKAGES} are not installed")
+    def test_library_is_in_the_page_with_its_licenses(self):
+        text = self.page()
+        self.assertEqual(len(re.findall("<noscript>", text)), len(page.FIGURES))
+        for wanted in ("OpenJS Foundation", "Permission is hereby granted", "fillBetween"):
+            self.assertTrue(wanted in text, wanted)
+        self.assertEqual((text.count("</script"), text.count("<!--")), (3, 0))  # none of its own ends a script
+
+    @unittest.skipUnless(interactive.library(), f"{interactive.PACKAGES} are not installed")
+    def test_curves_of_the_page_are_the_files(self):
+        line = self.run_data.timeline
+        (track,) = self.panels("track")
+        self.assertTrue(track["track"])
+        for name, table, keys in (("estimate", line, ("est_e", "est_n")), ("truth", self.run_data.truth, ("e", "n")),
+                                  ("wheels and gyro alone", self.run_data.wheel_track, ("east", "north"))):
+            for got, key in zip(self.values(track, name), keys):
+                np.testing.assert_allclose(got, table[key], atol=6e-4, err_msg=name)
+        for panel, error, axis in zip(self.panels("errors"), self.run_data.errors(), "enu"):
+            time_s, drawn = self.values(panel, "error")
+            np.testing.assert_allclose(time_s, line["t"], atol=6e-4)
+            np.testing.assert_allclose(drawn, error, rtol=1e-5)
+            np.testing.assert_allclose(self.values(panel, "±3σ")[1], 3.0 * line["sigma_" + axis], rtol=1e-5)
+        np.testing.assert_allclose(self.values(self.panels("slip")[0], "slip ratio")[1], line["slip"], rtol=1e-5)
+        np.testing.assert_allclose(self.values(self.panels("velocity")[0], "filter")[1], line["speed"], rtol=1e-5)
+        accel = self.values(self.panels("biases")[0], "forward")[1] * filter_health.MICRO_G
+        np.testing.assert_allclose(accel, self.run_data.filter["accel_bias_x"], rtol=1e-5)
+        nees = self.values(self.panels("consistency")[6], "")[1]
+        np.testing.assert_allclose(nees, np.maximum(self.run_data.nees["nees"], filter_health.LEAST_SHOWN), rtol=1e-5)
+        stops = [[begin, end] for begin, end, _, _ in self.run_data.stops()]
+        np.testing.assert_allclose(self.data()["stops"], stops, atol=6e-4)
+
+    @unittest.skipUnless(interactive.library(), f"{interactive.PACKAGES} are not installed")
+    def test_forecasts_of_the_page_end_where_the_next_begins(self):
+        panel = self.panels("forecast")[0]
+        time_s, bound = self.values(panel, "forecast bound")
+        self.assertEqual(np.count_nonzero(np.isnan(bound)), len(single_forecasts(self.run_data.forecasts)) - 1)
+        np.testing.assert_allclose(bound[:60], 0.02 * np.arange(1, 61), rtol=1e-5)
+        np.testing.assert_allclose(time_s[:60], 10.0 + np.arange(1, 61), atol=6e-4)
+        self.assertEqual([one["y"] for one in panel["levels"]], [THRESHOLD_M])
+
+    def test_threshold_is_the_configured_one(self):
+        """Also where bounds are far from straight between two seconds, or come to it nowhere."""
+        run = RunData(self.directory)
+        run.metrics = {**self.metrics, "threshold_m": 1.0}
+        error = forecasts.predicted_and_realised(run).axes[0]
+        self.assertEqual(curve(error, "ε = 1 m").get_ydata()[0], 1.0)
+
+    def test_noise_of_truth_is_drawn_where_it_is_larger(self):
+        run = RunData(self.directory)
+        for axis, factor in zip("enu", (0.5, 0.5, 2.0)):
+            run.nees["truth_sigma_" + axis] = np.full(len(run.nees["t"]), factor * np.median(run.timeline["sigma_" + axis]))
+        figure = tracks.position_errors(run)
+        labels = [[line.get_label() for line in axes.get_lines()] for axes in figure.axes]
+        self.assertEqual([("±3σ of truth itself" in one) for one in labels], [False, False, True])
+        drawn = curve(figure.axes[2], "±3σ of truth itself").get_ydata()
+        np.testing.assert_allclose(drawn, 3.0 * run.nees["truth_sigma_u"])
+
+    def test_files_have_the_noise_of_truth(self):
+        self.assertTrue((self.run_data.nees["truth_sigma_u"] > self.run_data.nees["truth_sigma_e"]).all())
+
+    def test_empty_axes_say_why(self):
+        run = RunData(self.directory)
+        for table in (run.forecasts, run.nees):
+            table.update({name: column[:0] for name, column in table.items()})
+        for name in "enu":
+            run.timeline["truth_" + name] = np.full(len(run.timeline["t"]), np.nan)
+        run.filter["nis_zero_rate"] = np.full(len(run.filter["t"]), np.nan)
+        reasons = [getattr(axes, "empty", "") for draw in (forecasts.predicted_and_realised, filter_health.consistency)
+                   for axes in draw(run).axes]
+        self.assertEqual(reasons, ["no forecast and no truth", "no forecast, no countdown", "", "", "", "", "",
+                                   "no stop, or none that was used", "no truth in this recording", ""])
+
+    def test_legends_cover_no_curve(self):
+        for name, _, draw in page.FIGURES:
+            figure = draw(self.run_data)
+            figure.canvas.draw()
+            for axes in figure.axes:
+                if axes.get_legend():
+                    self.assertGreaterEqual(axes.get_legend().get_window_extent().x0, axes.get_window_extent().x1, name)
 
     def test_page_holds_every_figure_and_each_shows_its_colours(self):
         wanted = {"track": ("ESTIMATE", "TRUTH", "DEAD_RECKONING", "STOP"), "errors": ("ESTIMATE", "ERROR"), "slip": ("TEXT",),
@@ -180,7 +291,7 @@ class ReportTest(unittest.TestCase):
         self.assertAlmostEqual(curve(error, "forecast bound").get_ydata()[-1], 1.2)
         grown = curve(error, "error grown since the last stop").get_ydata()
         self.assertGreater(np.nanmax(grown), 0.0)
-        self.assertAlmostEqual(curve(error, f"ε = {THRESHOLD_M:.2f} m").get_ydata()[0], THRESHOLD_M, places=6)
+        self.assertAlmostEqual(curve(error, f"ε = {THRESHOLD_M:g} m").get_ydata()[0], THRESHOLD_M, places=6)
         self.assertEqual(len(countdown.get_lines()[0].get_xdata()), 30)
         self.assertAlmostEqual(countdown.get_lines()[0].get_ydata()[0], 40.0)
 
@@ -192,7 +303,7 @@ class ReportTest(unittest.TestCase):
 
     def test_biases(self):
         for axes in filter_health.biases(self.run_data).axes:
-            for axis in "xyz":
+            for axis in filter_health.AXIS_NAMES:
                 bias = curve(axes, axis).get_ydata()
                 self.assertGreater(len(bias), 100)
                 self.assertGreater(np.max(np.abs(bias)), 0.0)
