@@ -38,7 +38,7 @@ def forecast(executable, window, model, horizon_s):
     with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:
         file.writelines(f"{time!r},{slip!r}\n" for time, slip in window)
         file.flush()
-        command = [executable, file.name, "--model", model, "--horizon", f"{horizon_s:.1f}"]
+        command = [executable, file.name, "--model", model, "--horizon", f"{horizon_s:.1f}", "--out", "-"]
         return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 

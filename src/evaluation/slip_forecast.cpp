@@ -2,8 +2,11 @@
 
 #include <cmath>
 #include <fstream>
+#include <iomanip>
 #include <limits>
+#include <locale>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 
 #include "core/base/text.h"
@@ -51,6 +54,35 @@ std::string jsonObject(const std::vector<std::pair<std::string, double>>& member
     text += (text.size() == 1 ? "\"" : ", \"") + name + "\": " + formatNumber(value);
   }
   return text + "}";
+}
+
+/// Every power of ten, twice and five times it: within `horizon_s`, and that itself.
+std::vector<double> shownTimes(double horizon_s) {
+  std::vector<double> times_s = {horizon_s};
+  for (double decade_s = 1.0; decade_s < horizon_s; decade_s *= 10.0) {
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      if (factor * decade_s < horizon_s) {
+        times_s.insert(times_s.end() - 1, factor * decade_s);
+      }
+    }
+  }
+  return times_s;
+}
+
+/// "12.5" in a column, whatever the process locale.
+std::string column(double value, int decimals) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setw(10) << std::fixed << std::setprecision(decimals) << value;
+  return out.str();
+}
+
+/// Four digits.
+std::string rounded(double value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << std::setprecision(4) << value;
+  return out.str();
 }
 
 double lastUsableTime(const SlipSamples& samples) {
@@ -115,6 +147,26 @@ std::string toJson(const SlipForecastResult& forecast) {
   text += "  \"t\": " + jsonArray(forecast.prediction.times_s) + ",\n";
   text += "  \"mean\": " + jsonArray(forecast.prediction.mean) + ",\n";
   text += "  \"stddev\": " + jsonArray(forecast.prediction.stddev) + "\n}\n";
+  return text;
+}
+
+std::string summaryOf(const SlipForecastResult& forecast) {
+  std::string text = "model " + forecast.model + ": " + toString(forecast.fit.status) + ", " +
+                     std::to_string(forecast.fit.samples) + " samples, " + std::to_string(forecast.fit.left_out) +
+                     " left out, log marginal likelihood " + rounded(forecast.fit.log_marginal_likelihood) + "\n";
+  const char* separator = "";
+  for (const auto& [name, value] : forecast.fit.hyperparameters) {
+    text += separator + name + " " + rounded(value);
+    separator = ", ";
+  }
+  const SlipPrediction& prediction = forecast.prediction;
+  text += "\n   ahead s      slip       +-2 sigma\n";
+  const double horizon_s = static_cast<double>(prediction.times_s.size()) * kSlipForecastStep_s;
+  for (const double time_s : shownTimes(horizon_s)) {
+    const auto row = static_cast<Eigen::Index>(std::lround(time_s / kSlipForecastStep_s)) - 1;
+    text +=
+        column(time_s, 1) + column(prediction.mean(row), 4) + "      " + column(2.0 * prediction.stddev(row), 4) + "\n";
+  }
   return text;
 }
 

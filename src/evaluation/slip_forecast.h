@@ -32,4 +32,7 @@ SlipForecastResult forecastSlip(const SlipSamples& samples, const SlipModelParam
 /// {bias_stddev, stddev, time_constant_s}, t, mean, stddev. Numbers carry all their digits.
 std::string toJson(const SlipForecastResult& forecast);
 
+/// The same for a reader: what was fitted, and slip with 2σ at a handful of times ahead.
+std::string summaryOf(const SlipForecastResult& forecast);
+
 }  // namespace slipnav

@@ -1,4 +1,4 @@
-/// Fits a slip model to a file of slip samples and writes the forecast as JSON.
+/// Fits a slip model to a file of slip samples, prints the forecast and writes it as JSON.
 
 #include <iostream>
 
@@ -16,7 +16,7 @@ slipnav::CommandLine declareCommandLine() {
       .choice("inference", {"dense", "state_space"}, "exact, or in linear time", defaults.inference)
       .option("horizon", "S", "how far to predict, in seconds", "60")
       .option("origin", "T", "time origin of the Brownian kernel; without it one interval before the first sample")
-      .option("out", "JSON", "file to write; without it the forecast goes to standard output");
+      .option("out", "JSON", "all of it as JSON into a file; - for standard output in the place of the summary");
   return command;
 }
 
@@ -29,14 +29,17 @@ int run(const slipnav::Arguments& arguments) {
     samples.origin_s = arguments.number("origin");
   }
   const double horizon_s = arguments.number("horizon", {2.0 * slipnav::kSlipForecastStep_s, 3600.0});
-  const std::string json = slipnav::toJson(slipnav::forecastSlip(samples, parameters, horizon_s));
-  if (!arguments.given("out")) {
-    std::cout << json;
+  const slipnav::SlipForecastResult forecast = slipnav::forecastSlip(samples, parameters, horizon_s);
+  if (arguments.given("out") && arguments.text("out") == "-") {
+    std::cout << slipnav::toJson(forecast);
     return 0;
   }
-  slipnav::AtomicFile file(arguments.text("out"));
-  file.stream() << json;
-  file.commit();
+  if (arguments.given("out")) {
+    slipnav::AtomicFile file(arguments.text("out"));
+    file.stream() << slipnav::toJson(forecast);
+    file.commit();
+  }
+  std::cout << slipnav::summaryOf(forecast);
   return 0;
 }
 

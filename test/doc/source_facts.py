@@ -117,9 +117,9 @@ def commands():
 # What a script of this name only starts.
 PYTHON_PROGRAMS = {"tables": "scripts/paper_tables.py", "foreign": "scripts/foreign_drives.py",
                    "import": "scripts/import_recording.py", "zoo": "scripts/zoo_campaign.py",
-                   "evaluate": "scripts/evaluate_drives.py"}
+                   "evaluate": "scripts/evaluate_drives.py", "forecast": "scripts/plot_forecast.py"}
 # Programs that hand options on to an executable, and those of every campaign.
-EXECUTABLES = {"evaluate": "src/tools/evaluate.cpp"}
+EXECUTABLES = {"evaluate": "src/tools/evaluate.cpp", "forecast": "src/tools/forecast.cpp"}
 CAMPAIGN = "scripts/slipnav_campaign/engine.py"
 
 

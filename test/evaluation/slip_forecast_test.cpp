@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -74,6 +76,19 @@ TEST(SlipForecast, JsonHasTheKeysAndAllDigits) {
     EXPECT_NE(json.find(key), std::string::npos) << key;
   }
   EXPECT_EQ(json.find("nan"), std::string::npos);
+}
+
+TEST(SlipForecast, SummaryIsADozenLinesWithTheValuesOfTheForecast) {
+  const SlipForecastResult forecast = forecastSlip(readGpSlip(), SlipModelParameters(), 60.0);
+  const std::string summary = summaryOf(forecast);
+  EXPECT_EQ(std::count(summary.begin(), summary.end(), '\n'), 10);
+  EXPECT_NE(summary.find("model paper: converged"), std::string::npos) << summary;
+  std::array<char, 64> row = {};
+  for (const int step : {10, 20, 50, 100, 200, 500, 600}) {
+    std::snprintf(row.data(), row.size(), "\n%10.1f%10.4f      %10.4f\n", 0.1 * step,
+                  forecast.prediction.mean(step - 1), 2.0 * forecast.prediction.stddev(step - 1));
+    EXPECT_NE(summary.find(row.data()), std::string::npos) << row.data() << summary;
+  }
 }
 
 TEST(SlipForecast, RefusalIsAnErrorWithItsReason) {
