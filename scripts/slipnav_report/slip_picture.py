@@ -28,7 +28,8 @@ def read_samples(path):
     return np.array(rows).reshape(-1, 2).T
 
 
-def picture(samples, forecast):
+def draw(samples, forecast):
+    """Of times and slips, and of what the executable has written."""
     figure, axes = plt.subplots(figsize=(10, 4.5))
     time, mean, spread = (np.array(forecast[key]) for key in ("t", "mean", "stddev"))
     band(axes, time, mean - SIGMAS * spread, mean + SIGMAS * spread, color=palette.SAFE, alpha=0.4,
@@ -40,4 +41,8 @@ def picture(samples, forecast):
     axes.set_ylabel("slip ratio")
     axes.grid(alpha=0.3)
     legend_beside(axes)
-    return png_of(figure)
+    return figure
+
+
+def picture(samples, forecast):
+    return png_of(draw(samples, forecast))

@@ -21,7 +21,7 @@ import numpy as np  # noqa: E402
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
-from slipnav_report import palette  # noqa: E402
+from slipnav_report import palette, slip_picture  # noqa: E402
 
 SAMPLES = os.path.join(ROOT, "test", "golden", "gp_slip.csv")
 LEAST_PIXELS = 100
@@ -65,6 +65,16 @@ class ForecastTest(unittest.TestCase):
             for colour in (palette.TEXT, palette.ESTIMATE):
                 self.assertGreater(self.pixels("picture.png", colour), LEAST_PIXELS, colour)
             os.remove(self.path("picture.png"))
+
+    def test_curves_of_the_picture(self):
+        found = json.loads(forecast(SAMPLES, "--out", "-").stdout)
+        axes = slip_picture.draw(slip_picture.read_samples(SAMPLES), found).axes[0]
+        samples, mean = axes.get_lines()
+        np.testing.assert_array_equal(samples.get_xydata(), np.loadtxt(SAMPLES, delimiter=",", skiprows=1))
+        np.testing.assert_array_equal(mean.get_ydata(), found["mean"])
+        time_s, low, high = axes.collections[0].band
+        np.testing.assert_array_equal(time_s, found["t"])
+        np.testing.assert_allclose(high - low, 4.0 * np.array(found["stddev"]))
 
     def test_what_cannot_be_done_is_named_in_one_line(self):
         for words, status, wanted in (((SAMPLES, "--report"), 2, "--report: expected one argument"),
