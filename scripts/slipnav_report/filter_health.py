@@ -89,7 +89,8 @@ def consistency(run):
     for axes, (name, freedom) in zip(grid, NIS_COMPONENTS.items()):
         measured = np.isfinite(run.filter["nis_" + name])
         draw_chi_square(axes, run.filter["t"][measured], freedom * run.filter["nis_" + name][measured], freedom,
-                        "NIS " + name.replace("_", " "), NOT_MEASURED.get(name, "no such update was made; filter.updates says which are"))
+                        "NIS " + name.replace("_", " "),
+                        NOT_MEASURED.get(name, "no such update was made; filter.updates says which are"))
     draw_chi_square(grid[6], run.nees["t"], run.nees["nees"], 3, "NEES position", "no truth in this recording")
     grid[7].axis("off")
     grid[7].text(0.0, 0.5, "Shaded: 95 % of a chi-square distribution with\nthe degrees of freedom of the measurement.\n"

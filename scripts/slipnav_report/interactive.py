@@ -41,7 +41,8 @@ def library():
     needed = [os.path.join(FOLDER, name) for name in LIBRARIES]
     if not all(os.path.isfile(path) for path in needed):
         return None
-    jquery, *parts = needed + [path for path in (os.path.join(FOLDER, name) for name in PLUGINS) if os.path.isfile(path)]
+    plugins = [os.path.join(FOLDER, name) for name in PLUGINS]
+    jquery, *parts = needed + [path for path in plugins if os.path.isfile(path)]
     return "\n".join([read(jquery), NOTICE, *map(read, parts)]).replace("</script", "<\\/script")
 
 

@@ -14,7 +14,6 @@
   const column = (curve, key) => data.columns[curve[key]];
   const pairs = (x, y) => x.map((value, i) => [value, y[i]]);
   const colour = (value) => dark.matches && data.dark[value] || value;
-
   const opacity = (value) => dark.matches ? 0.6 * value : value;
 
   function nearest(x, at, isUsed) {
@@ -68,7 +67,8 @@
 
   function markings(panel) {
     const stops = panel.track ? [] : data.stops.map(([from, to]) => ({xaxis: {from, to}, color: STANDSTILL}));
-    const ranges = panel.ranges.map(([from, to]) => ({yaxis: {from, to}, color: data.shade + (dark.matches ? "30" : "4d")}));
+    const shade = data.shade + (dark.matches ? "30" : "4d");
+    const ranges = panel.ranges.map(([from, to]) => ({yaxis: {from, to}, color: shade}));
     const levels = panel.levels.map(({y, color}) => ({yaxis: {from: y, to: y}, color: colour(color), lineWidth: 1}));
     return [...stops, ...ranges, ...levels];
   }
@@ -237,9 +237,10 @@
     for (const one of [...panel.curves, ...panel.levels]) {
       const name = one.name || (isAlone ? panel.label : "");
       if (!name) continue;
-      const row = $("<tr>").toggleClass("hidden", !!one.hidden).append($("<td>").html(`<svg viewBox="0 0 26 11">${swatch(one)}</svg>`));
+      const sample = $("<td>").html(`<svg viewBox="0 0 26 11">${swatch(one)}</svg>`);
       const cell = $("<td>");
-      panel.legend.append(row.append($("<td>").text(name), cell));
+      const row = $("<tr>").toggleClass("hidden", !!one.hidden).append(sample, $("<td>").text(name), cell);
+      panel.legend.append(row);
       if (!panel.curves.includes(one)) continue;
       panel.values.push([one, cell]);
       row.on("click", () => {

@@ -177,7 +177,8 @@ class ReportTest(unittest.TestCase):
     def test_noise_of_truth_is_drawn_where_it_is_larger(self):
         run = RunData(self.directory)
         for axis, factor in zip("enu", (0.5, 0.5, 2.0)):
-            run.nees["truth_sigma_" + axis] = np.full(len(run.nees["t"]), factor * np.median(run.timeline["sigma_" + axis]))
+            sigma = factor * np.median(run.timeline["sigma_" + axis])
+            run.nees["truth_sigma_" + axis] = np.full(len(run.nees["t"]), sigma)
         figure = tracks.position_errors(run)
         labels = [[line.get_label() for line in axes.get_lines()] for axes in figure.axes]
         self.assertEqual([("±3σ of truth itself" in one) for one in labels], [False, False, True])
