@@ -75,7 +75,8 @@ def draw_chi_square(axes, time, values, freedom, title, why_empty):
     shade_range(axes, low, high, color=palette.SAFE, alpha=0.3)
     if not len(values):
         say_why_empty(axes, why_empty)
-    axes.semilogy(*thinned(time, np.maximum(values, LEAST_SHOWN)), ".", color=palette.ESTIMATE, ms=1.5)
+    axes.semilogy(*thinned(time, np.maximum(values, LEAST_SHOWN)), ".", color=palette.ESTIMATE, ms=1.5,
+                  label=title)
     axes.set_ylim(LEAST_SHOWN, 1e3)
     inside = np.mean((values >= low) & (values <= high)) if len(values) else np.nan
     axes.set_title(f"{title}: mean/dof {np.mean(values) / freedom:.2f}, {100 * inside:.0f} % inside"

@@ -74,7 +74,9 @@
   }
 
   function axisOf([min, max], isLog) {
-    const axis = {min, max, show: true, reserveSpace: true, autoScale: "none", tickColor: GRID, showMinorTicks: false};
+    const tickFormatter = (value) => String(Number(value.toFixed(9)));  // its own calls 0.75 0.8
+    const axis = {min, max, show: true, reserveSpace: true, autoScale: "none", tickColor: GRID, showMinorTicks: false,
+                  tickFormatter};
     if (!isLog) return axis;
     const ticks = [1e-4, 1e-2, 1, 1e2].map((value) => [value, value === 1 ? "1" : value.toExponential(0)]);
     return {...axis, ticks, transform: (v) => Math.log(Math.max(v, 1e-9)), inverseTransform: Math.exp};

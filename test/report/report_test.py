@@ -153,7 +153,7 @@ class ReportTest(unittest.TestCase):
         np.testing.assert_allclose(self.values(self.panels("velocity")[0], "filter")[1], line["speed"], rtol=1e-5)
         accel = self.values(self.panels("biases")[0], "forward")[1] * filter_health.MICRO_G
         np.testing.assert_allclose(accel, self.run_data.filter["accel_bias_x"], rtol=1e-5)
-        nees = self.values(self.panels("consistency")[6], "")[1]
+        nees = self.values(self.panels("consistency")[6], "NEES position")[1]
         np.testing.assert_allclose(nees, np.maximum(self.run_data.nees["nees"], filter_health.LEAST_SHOWN), rtol=1e-5)
         stops = [[begin, end] for begin, end, _, _ in self.run_data.stops()]
         np.testing.assert_allclose(self.data()["stops"], stops, atol=6e-4)
