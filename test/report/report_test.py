@@ -31,7 +31,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
 from slipnav_report import filter_health, forecasts, interactive, page, palette, tracks  # noqa: E402
-from slipnav_report.run_data import RunData, read_tum, single_forecasts  # noqa: E402
+from slipnav_report.run_data import MOST_POINTS, RunData, read_tum, single_forecasts, thinned  # noqa: E402
 
 MOST_BYTES = 6_000_000
 MOST_BYTES_OF_PICTURES = 1_500_000
@@ -166,6 +166,12 @@ class ReportTest(unittest.TestCase):
         np.testing.assert_allclose(bound[:60], 0.02 * np.arange(1, 61), rtol=1e-5)
         np.testing.assert_allclose(time_s[:60], 10.0 + np.arange(1, 61), atol=6e-4)
         self.assertEqual([one["y"] for one in panel["levels"]], [THRESHOLD_M])
+
+    def test_drives_of_any_length_have_as_many_points(self):
+        for rows in (1, 6000, 6001, 11999, 500000):
+            time_s, _ = thinned(np.arange(rows), np.arange(rows))
+            self.assertLessEqual(len(time_s), MOST_POINTS)
+            self.assertGreater(2 * len(time_s), min(rows, MOST_POINTS))
 
     def test_threshold_is_the_configured_one(self):
         """Also where bounds are far from straight between two seconds, or come to it nowhere."""
