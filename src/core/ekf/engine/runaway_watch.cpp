@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kFactor = 2.0;  // a wheel that locks at speed leaves the vehicle at once that speed
 constexpr double kLasting_s = 1.0;
-constexpr double kAtOnce = 2.5;       // so far beyond it is not waited
 constexpr double kLeast_mps = 0.1;    // wheels that have hardly turned yet are no measure
 constexpr double kLevelling_s = 5.0;  // rocking over stones averages out, the way to a slope is not yet forgotten
 constexpr double kShortest_s = 0.1;   // of levelling
@@ -33,7 +32,7 @@ bool RunawayWatch::addWheels(Nanoseconds stamp, double wheels_mps, double speed_
     way_beyond_m_ = 0.0;
   }
   way_beyond_m_ += (speed_mps - limit_mps) * interval_s;
-  if (toSeconds(stamp - since_) < kLasting_s && speed_mps <= kAtOnce * limit_mps) {
+  if (toSeconds(stamp - since_) < kLasting_s) {
     return false;
   }
   since_ = 0;
