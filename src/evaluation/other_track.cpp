@@ -1,8 +1,8 @@
 #include "evaluation/other_track.h"
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "evaluation/alignment.h"
 

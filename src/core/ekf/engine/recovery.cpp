@@ -1,8 +1,5 @@
 /// The part of FilterEngine that begins anew where the estimate has run away.
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/base/square.h"
 #include "slipnav/core/base/rotation.h"
 #include "slipnav/core/ekf/engine/filter_engine.h"
@@ -23,15 +20,15 @@ void FilterEngine::recover(const WheelMotion& wheels) {
   state_.accel_bias_b.setZero();
   vehicle_ = VehicleState{};
   for (int axis = 0; axis < 3; ++axis) {
-    forgetError(kVelocity + axis, square(runaway_.fastest_mps()), P_);
-    forgetError(kAccelBias + axis, prior(kAccelBias + axis), P_);
+    forget(kVelocity + axis, square(runaway_.fastest_mps()));
+    forget(kAccelBias + axis, prior(kAccelBias + axis));
   }
-  forgetError(kAttitude, level_variance, P_);
-  forgetError(kAttitude + 1, level_variance, P_);
+  forget(kAttitude, level_variance);
+  forget(kAttitude + 1, level_variance);
   P_(kAttitude + 2, kAttitude + 2) += level_variance;
   P_.diagonal().segment<3>(kPosition).array() += square(runaway_.wayBeyond_m());
   for (int state = kWheelScale; state < kYawScale; ++state) {  // the scale of the gyro is never estimated
-    forgetError(state, prior(state), P_);
+    forget(state, prior(state));
   }
   slow_envelope_ = side_envelope_ = 0.0;
   lasting_slip_.reset();
