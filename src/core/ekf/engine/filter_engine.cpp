@@ -22,6 +22,14 @@ constexpr double kShownSigmas = 2.0;
 
 double shownSlip(double slip, double variance) { return square(slip) > square(kShownSigmas) * variance ? slip : 0.0; }
 
+/// Fast slip that shows beyond doubt is not drawn back to zero as if it were the ground's usual: where soft ground
+/// begins, the wheels would pull the velocity along within a meter. It is driven by its own square until it passes.
+void holdShownSlip(double slip, double ground_variance, ErrorTransition& transition) {
+  if (square(slip) > ground_variance && ground_variance > 0.0) {
+    transition.noise(kFastSlip) *= square(slip) / ground_variance;
+  }
+}
+
 bool earlier(const AntennaFix& a, const AntennaFix& b) {
   return std::pair(stampOf(a), a.index()) < std::pair(stampOf(b), b.index());
 }
@@ -231,6 +239,10 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
   adaptation_.addNoise(dynamics_, step, step.state, shownSlip(vehicle_.slow_slip, P_(kSlowSlip, kSlowSlip)),
                        surface_speed_mps_ * duration_s, transition_);
+  if (state_.v_eb_n.norm() * setup_.filter.max_rejection_s > setup_.vehicle.fast_slip_length_m) {  // else the IMU drifts
+    holdShownSlip(shownSlip(vehicle_.fast_slip, P_(kFastSlip, kFastSlip)), adaptation_.ground().fast_slip_variance,
+                  transition_);
+  }
   ErrorDynamics::propagate(transition_, P_);
   if (history_) {
     history_->propagate(transition_);
