@@ -12,6 +12,14 @@ namespace {
 /// A share of zero would be an infinite variance.
 constexpr double kLeastShare = 1e-6;
 
+/// No step adds so much to a variance, unless the filter has opened it.
+constexpr double kOpened = 1.5;
+
+/// Of the velocity in direction `along_n`.
+double varianceAlong(const Vector3& along_n, const ErrorCovariance& P) {
+  return along_n.dot(P.block<3, 3>(kVelocity, kVelocity) * along_n);
+}
+
 double horizontalStd(const ErrorCovariance& P) {
   return std::sqrt(std::max(P(kPosition, kPosition) + P(kPosition + 1, kPosition + 1), 0.0));  // NaN stays NaN
 }
@@ -39,12 +47,12 @@ CovarianceForecast::CovarianceForecast(const Planet& planet, const FilterSetup& 
   }
 }
 
-GroundOutlook CovarianceForecast::assumption() const {
+GroundOutlook CovarianceForecast::assumption(const NoiseFactors& factors) const {
   GroundOutlook outlook;
-  outlook.drift_std = setup_.vehicle.slow_slip_std;
-  outlook.change_std = setup_.vehicle.fast_slip_std;
-  outlook.wheel_noise_variance = square(setup_.wheel.speed_std_mps);
-  outlook.side_slip_std_rad = degToRad(setup_.vehicle.side_slip_std_deg);
+  outlook.drift_std = setup_.vehicle.slow_slip_std * std::sqrt(factors.slow_slip);
+  outlook.change_std = setup_.vehicle.fast_slip_std * std::sqrt(factors.fast_slip);
+  outlook.wheel_noise_variance = square(setup_.wheel.speed_std_mps) * factors.wheel;
+  outlook.side_slip_std_rad = degToRad(setup_.vehicle.side_slip_std_deg) * std::sqrt(factors.side_slip);
   return outlook;
 }
 
@@ -124,7 +132,26 @@ void CovarianceForecast::advance(const DriveStep& step, const GroundOutlook& out
 
 void CovarianceForecast::follow(const DriveStep& step, const ErrorCovariance& P, const GroundOutlook& outlook) {
   advance(step, outlook, claim_, reality_);
+  openAsTheFilter(step.state, P);
   claim_ = P;
+}
+
+void CovarianceForecast::openAsTheFilter(const NavigationState& state, const ErrorCovariance& P) {
+  for (const int slip : {kSlowSlip, kFastSlip}) {
+    if (P(slip, slip) > kOpened * claim_(slip, slip)) {
+      reality_(slip, slip) += P(slip, slip) - claim_(slip, slip);
+    }
+  }
+  const Vector3 ahead_n = state.q_b_to_n * Vector3::UnitX();
+  const double expected = varianceAlong(ahead_n, claim_);
+  const double found = varianceAlong(ahead_n, P);
+  if (found > kOpened * expected) {
+    reality_.block<3, 3>(kVelocity, kVelocity) += (found - expected) * ahead_n * ahead_n.transpose();
+  }
+}
+
+double CovarianceForecast::forwardVariance(const NavigationState& state) const {
+  return varianceAlong(state.q_b_to_n * Vector3::UnitX(), claim_);
 }
 
 std::vector<double> CovarianceForecast::ahead(const std::vector<DriveStep>& steps, const GroundOutlook& outlook) const {

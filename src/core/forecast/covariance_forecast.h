@@ -52,8 +52,8 @@ class CovarianceForecast {
   /// The filter takes its measurements for better or worse from now on.
   void retune(const FilterSetup& setup) { setup_ = setup; }
 
-  /// The filter's slip model as an outlook, for as long as nothing is learned.
-  GroundOutlook assumption() const;
+  /// The filter's slip model as an outlook, with what it has learned of wheels and ground.
+  GroundOutlook assumption(const NoiseFactors& factors = {}) const;
 
   /// The rover stands, or the estimate begins: the error is what the filter says.
   /// @param growth the position error counts from here
@@ -69,6 +69,9 @@ class CovarianceForecast {
   /// Covariance of the errors really made.
   const ErrorCovariance& reality() const { return reality_; }
 
+  /// Of the forward velocity, as the filter claims it [m²/s²].
+  double forwardVariance(const NavigationState& state) const;
+
  private:
   struct Odometry {
     Measurement::Jacobian H;
@@ -80,6 +83,9 @@ class CovarianceForecast {
   ErrorTransition transition(const DriveStep& step) const;
   /// What differs between the filter's model of the ground and the outlook: how vehicle states decay and are driven.
   ErrorTransition onGround(ErrorTransition transition, const DriveStep& step, const GroundOutlook& outlook) const;
+
+  /// Where the filter has doubted its slip or its speed, the error really made is as uncertain.
+  void openAsTheFilter(const NavigationState& state, const ErrorCovariance& P);
 
   /// Both covariances through one step.
   void advance(const DriveStep& step, const GroundOutlook& outlook, ErrorCovariance& claim,

@@ -157,6 +157,7 @@ std::optional<Forecast> Forecaster::make(const Estimate& estimate) {
     forecast.correlation = summarizeCorrelation(model_, now_s, params_.horizon_s, kCorrelationPoints);
   }
   learnGround(forecast);
+  weighAgainstFilter(estimate);
   forecast.outlook = outlook_;
   forecast.error.stamp = estimate.nav.stamp;
   forecast.error.threshold_m = params_.threshold_m;
@@ -226,6 +227,21 @@ void Forecaster::learnGround(const Forecast& forecast) {
   outlook_.change_std = steepness * forecast.correlation.stddev;
   outlook_.change_time_s = std::max(forecast.correlation.time_constant_s, params_.wheel_interval_s);
   outlook_.wheel_noise_variance = square(setup_.wheel.speed_std_mps) + square(wheel.sensitivity_mps * noise_std);
+}
+
+/// The slip of the window is what the filter believes, and the error of its velocity is in it. So what the filter has
+/// learned of wheels and ground from its innovations is the most of what comes and goes; what persists counts as less
+/// or more than that only as far as it stands out of the velocity's error.
+void Forecaster::weighAgainstFilter(const Estimate& estimate) {
+  const GroundOutlook filter = covariance_.assumption(estimate.noise_factors);
+  outlook_.change_std = std::min(outlook_.change_std, filter.change_std);
+  outlook_.side_slip_std_rad = std::min(outlook_.side_slip_std_rad, filter.side_slip_std_rad);
+  outlook_.wheel_noise_variance = std::min(outlook_.wheel_noise_variance, filter.wheel_noise_variance);
+  const double speed_mps = std::max(std::abs(outlook_.speed_mps), kMinSpeedForSlip_mps);
+  const double unseen = covariance_.forwardVariance(estimate.nav) / square(speed_mps);
+  const double seen = square(outlook_.drift_std);
+  const double usual = square(filter.drift_std);
+  outlook_.drift_std = std::sqrt(seen < usual ? std::min(usual, seen + unseen) : std::max(usual, seen - unseen));
 }
 
 std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {

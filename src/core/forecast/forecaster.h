@@ -73,6 +73,7 @@ class Forecaster {
   std::optional<Forecast> make(const Estimate& estimate);
   SlipSamples window() const;
   void learnGround(const Forecast& forecast);
+  void weighAgainstFilter(const Estimate& estimate);
   double cruisingSpeed() const;
   void learnSpeedAndSideSlip();
   std::vector<DriveStep> wayAhead(const Estimate& estimate) const;
