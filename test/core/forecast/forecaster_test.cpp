@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "config/config.h"
+#include "core/base/square.h"
 #include "slipnav/core/base/rotation.h"
 
 namespace slipnav {
@@ -46,11 +47,12 @@ class ForecasterTest : public ::testing::Test {
     e.wheels.stamp = e.nav.stamp;
     e.wheels.motion.forward_mps = stationary ? 0.0 : kWheelSpeed_mps;
     e.motion = {0.1, Vector3(speed_mps, 0.0, 0.0), Vector3::Zero()};
+    e.noise_factors = factors_;
     return e;
   }
 
-  static double slipAt(int sample, double size) {
-    return 0.05 + size * std::sin(0.9 * sample) * std::cos(0.31 * sample);
+  double slipAt(int sample, double size) const {
+    return base_slip_ + size * std::sin(0.9 * sample) * std::cos(0.31 * sample);
   }
 
   /// Stands, then drives; the last forecast.
@@ -67,6 +69,8 @@ class ForecasterTest : public ::testing::Test {
   }
 
   ErrorCovariance P_ = ErrorCovariance::Zero();
+  NoiseFactors factors_;
+  double base_slip_ = 0.05;
   int forecasts_ = 0;
 };
 
@@ -249,6 +253,58 @@ TEST_F(ForecasterTest, NoiseThatTheFilterTakesOtherwiseCountsInTheBound) {
   retuned.retune(setup, {});
   const double kept_m = drive(kept, 150, 0.02).value().error.horizontal_bound_m.back();
   EXPECT_GT(drive(retuned, 150, 0.02).value().error.horizontal_bound_m.back(), 1.01 * kept_m);
+}
+
+/// Slip that comes and goes by more than the filter has learned is the noise of its own estimate.
+TEST_F(ForecasterTest, SlipThatComesAndGoesIsWhatTheFilterHasLearned) {
+  const VehicleModelParams vehicle;
+  Forecaster forecaster = make();
+  EXPECT_DOUBLE_EQ(drive(forecaster, 150, 0.3).value().outlook.change_std, vehicle.fast_slip_std);
+  factors_.fast_slip = 4.0;
+  Forecaster on_rough_ground = make();
+  EXPECT_GT(drive(on_rough_ground, 150, 0.3).value().outlook.change_std, 1.2 * vehicle.fast_slip_std);
+}
+
+/// A slip of 5 % that stays is more than the filter expects only where its velocity is known well enough to tell.
+TEST_F(ForecasterTest, SlipThatStaysCountsAsFarAsItStandsOutOfTheVelocityError) {
+  const VehicleModelParams vehicle;
+  Forecaster sure = make();
+  EXPECT_GT(drive(sure, 150, 0.002).value().outlook.drift_std, 1.1 * vehicle.slow_slip_std);
+  P_.diagonal().segment<3>(kVelocity).setConstant(square(0.05 * kWheelSpeed_mps));
+  Forecaster unsure = make();
+  EXPECT_DOUBLE_EQ(drive(unsure, 150, 0.002).value().outlook.drift_std, vehicle.slow_slip_std);
+}
+
+/// On a road less than the usual slip is forecast, but never less than the velocity's error would hide.
+TEST_F(ForecasterTest, RoadIsForecastAsGoodAsItIsKnownToBe) {
+  const VehicleModelParams vehicle;
+  base_slip_ = 0.0;
+  Forecaster sure = make();
+  EXPECT_LT(drive(sure, 150, 0.002).value().outlook.drift_std, 0.2 * vehicle.slow_slip_std);
+  const double hidden = 0.02;
+  P_.diagonal().segment<3>(kVelocity).setConstant(square(hidden * kWheelSpeed_mps));
+  Forecaster unsure = make();
+  const double drift_std = drive(unsure, 150, 0.002).value().outlook.drift_std;
+  EXPECT_GE(drift_std, 0.99 * hidden);
+  EXPECT_LT(drift_std, vehicle.slow_slip_std);
+}
+
+/// Where the filter has opened slip and speed, which the wheels cannot tell apart, the error grows by what it doubts.
+TEST_F(ForecasterTest, DoubtOfTheFilterIsDoubtOfTheForecast) {
+  constexpr double kDoubt = 0.3;
+  Forecaster calm = make();
+  const double calm_m = drive(calm, 160, 0.02).value().error.horizontal_bound_m.front();
+  Forecaster doubting = make();
+  drive(doubting, 149, 0.02);
+  P_(kSlowSlip, kSlowSlip) += square(kDoubt);
+  P_(kVelocity + 1, kVelocity + 1) += square(kDoubt * kWheelSpeed_mps);
+  std::optional<Forecast> last;
+  for (int i = 150; i <= 160; ++i) {
+    if (std::optional<Forecast> forecast = doubting.push(estimate(i, slipAt(i, 0.02)), P_)) {
+      last = std::move(forecast);
+    }
+  }
+  EXPECT_GT(last.value().error.horizontal_bound_m.front(), 1.2 * calm_m);
 }
 
 }  // namespace
