@@ -20,14 +20,20 @@ from slipnav_zoo import catalog  # noqa: E402
 from slipnav_zoo.evaluation import evaluate, ratio  # noqa: E402
 from slipnav_zoo.table import Limits, markdown, number  # noqa: E402
 
-HEADS = ["drive", "m", "ENU %", "final %", "NEES", "3σ %", "stops", "used", "wheels+gyro %", "textbook %", "ratio"]
+HEADS = ["drive", "m", "ENU %", "final %", "NEES", "3σ %", "stops", "used", "wheels+gyro %", "textbook %", "ratio",
+         "bound / grown", "held %"]
 
+FORECASTS = "forecast.interval_s=1"
 LARGEST_RATIO = 1.2  # to the textbook filter, or to wheels and gyro
 LARGEST_MEDIAN_RATIO = 1.0
 SPARE_PCT = 0.3  # of the distance, over wheels and gyro on real drives
 LARGEST_NEES = 4.0
 MEDIAN_NEES = (0.2, 2.0)
 LEAST_COVERAGE_PCT = 95.0
+FEWEST_FORECASTS = 10  # that can be judged
+BOUND_RATIO_SIMULATED = (0.0, 5.0)  # 3 is exact
+BOUND_RATIO_REAL = (2.5, 6.0)
+LEAST_HELD_PCT = 98.0
 
 
 class Parser(argparse.ArgumentParser):
@@ -71,7 +77,7 @@ def task_of(drive, arguments):
     configurations = [find(name, arguments.data, arguments.config_dir) for name in drive.configurations]
     if bag is None or None in configurations:
         return None
-    return Task(drive.bag, evaluate, (arguments.evaluate, bag, configurations, arguments.set), os.path.getsize(bag))
+    return Task(drive.bag, evaluate, (arguments.evaluate, bag, configurations, [FORECASTS] + arguments.set), os.path.getsize(bag))
 
 
 def evaluate_all(drives, arguments):
@@ -92,7 +98,13 @@ def row(drive, outcome):
     return [drive.bag, number(metrics["distance_m"], 0), number(metrics["enu_error_pct"], 3),
             number(outcome.final_pct, 3), number(metrics["position_nees_mean"]),
             number(metrics["coverage_3sigma_pct"], 1), str(outcome.stops_seen), str(outcome.stops_used),
-            number(drive.wheels_and_gyro_pct), number(drive.textbook_pct), number(compared)]
+            number(drive.wheels_and_gyro_pct), number(drive.textbook_pct), number(compared),
+            number(bound_ratio(metrics)), number(metrics["forecast_below_pct"], 1)]
+
+
+def bound_ratio(metrics):
+    """The forecast bound of three standard deviations over the error that has grown by the end of its horizon."""
+    return ratio(metrics["forecast_bound_m"], metrics["forecast_growth_rms_m"])
 
 
 def check(drive, outcome, limits):
@@ -100,6 +112,11 @@ def check(drive, outcome, limits):
         limits.fail(drive.bag, str(outcome))
         return
     metrics = outcome.metrics
+    least, largest = BOUND_RATIO_SIMULATED if drive.simulated else BOUND_RATIO_REAL
+    if metrics["forecasts_judged"] >= FEWEST_FORECASTS:
+        limits.at_least(drive.bag, "forecast bound / grown", bound_ratio(metrics), least)
+        limits.at_most(drive.bag, "forecast bound / grown", bound_ratio(metrics), largest)
+        limits.at_least(drive.bag, "forecast bound held %", metrics["forecast_below_pct"], LEAST_HELD_PCT)
     if drive.simulated:
         limits.at_most(drive.bag, "ENU error %", metrics["enu_error_pct"], LARGEST_RATIO * drive.textbook_pct)
         limits.at_most(drive.bag, "NEES", metrics["position_nees_mean"], LARGEST_NEES)

@@ -92,7 +92,12 @@ struct Metrics {
   std::optional<double> closure_up_m;      ///< last minus first height
   std::optional<double> closure_pct;       ///< 100·closure_m/D
   std::optional<double> closure_3sigma_m;  ///< what the 3σ ellipse has grown by since the start, its longer half axis
-  std::string verdict;                     ///< see verdictOf()
+  std::int64_t forecasts_judged = 0;       ///< whose horizon has come without a stop, see judgeForecasts()
+  std::optional<double> forecast_horizon_s;
+  std::optional<double> forecast_bound_m;       ///< at the horizon, mean
+  std::optional<double> forecast_growth_rms_m;  ///< of the error that came; a bound of 3σ should be three times that
+  std::optional<double> forecast_below_pct;     ///< share of the forecasts whose bound held
+  std::string verdict;                          ///< see verdictOf()
   Alarms problems;                         ///< of the recording: messages that could not be used, and the like
   Alarms alarms;                           ///< what the monitoring of sensors and filter has named
 };

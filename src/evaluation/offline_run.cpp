@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "core/slip/slip_ratio.h"
+#include "evaluation/forecast_judgement.h"
 #include "evaluation/truth_gate.h"
 #include "slipnav/core/base/rotation.h"
 #include "slipnav/core/ekf/engine/filter_history.h"
@@ -237,6 +238,7 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
   report.metrics = computeMetrics(input);
   if (forecasts_) {
     report.metrics.threshold_m = config_.forecast.threshold_m;
+    judgeForecasts(report.forecasts, report.estimates, report.truth, report.metrics);
   }
   report.metrics.alarms = pipeline_.health().alarms();
   report.diagnostics.filter = filter_rows_.rows();

@@ -157,6 +157,11 @@ std::string metricsJson(const Metrics& metrics, const Metrics* smoothed, const s
   json.addCount("stops_used", metrics.stops_used);
   json.addCount("truth_left_out", metrics.truth_left_out);
   json.addNumber("threshold_m", metrics.threshold_m);
+  json.addCount("forecasts_judged", metrics.forecasts_judged);
+  json.addNumber("forecast_horizon_s", metrics.forecast_horizon_s);
+  json.addNumber("forecast_bound_m", metrics.forecast_bound_m);
+  json.addNumber("forecast_growth_rms_m", metrics.forecast_growth_rms_m);
+  json.addNumber("forecast_below_pct", metrics.forecast_below_pct);
   json.addNumber("closure_m", metrics.closure_m);
   json.addNumber("closure_up_m", metrics.closure_up_m);
   json.addNumber("closure_pct", metrics.closure_pct);

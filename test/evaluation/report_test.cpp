@@ -233,6 +233,11 @@ TEST(MetricsJson, holdsEveryKeyInOrder) {
             "  \"stops_used\": 0,\n"
             "  \"truth_left_out\": 0,\n"
             "  \"threshold_m\": null,\n"
+            "  \"forecasts_judged\": 0,\n"
+            "  \"forecast_horizon_s\": null,\n"
+            "  \"forecast_bound_m\": null,\n"
+            "  \"forecast_growth_rms_m\": null,\n"
+            "  \"forecast_below_pct\": null,\n"
             "  \"closure_m\": null,\n"
             "  \"closure_up_m\": null,\n"
             "  \"closure_pct\": null,\n"
@@ -257,19 +262,49 @@ TEST(MetricsJson, givesEachKeyItsOwnFigure) {
   m.position_nees_mean = 14.5, m.coverage_3sigma_pct = 15.5, m.wheel_only_error_pct = 16.5;
   m.no_zupt_error_pct = 17.5, m.imu_samples = 18, m.wheel_samples = 19, m.rejected_samples = 20, m.forecasts = 21;
   m.forecast_ms_p50 = 22.5, m.forecast_ms_p99 = 23.5, m.cpu_s = 24.5, m.realtime_factor = 25.5;
-  m.final_pct = 26.5, m.stops_seen = 27, m.stops_used = 28, m.threshold_m = 29.5, m.closure_m = 30.5;
-  m.closure_up_m = 31.5, m.closure_pct = 32.5, m.closure_3sigma_m = 33.5;
+  m.final_pct = 26.5, m.stops_seen = 27, m.stops_used = 28, m.threshold_m = 29.5;
+  m.forecasts_judged = 30, m.forecast_horizon_s = 31.5, m.forecast_bound_m = 32.5, m.forecast_growth_rms_m = 33.5;
+  m.forecast_below_pct = 34.5, m.closure_m = 35.5, m.closure_up_m = 36.5, m.closure_pct = 37.5;
+  m.closure_3sigma_m = 38.5;
   const std::string json = metricsJson(m);
-  const std::vector<std::string> keys = {
-      "distance_m",        "duration_s",         "stop_count",          "stop_rate_pct",
-      "enu_error_pct",     "median_error_pct",   "horizontal_median_m", "horizontal_std_m",
-      "horizontal_max_m",  "horizontal_final_m", "rms_east_m",          "rms_north_m",
-      "rms_up_m",          "position_nees_mean", "coverage_3sigma_pct", "wheel_only_error_pct",
-      "no_zupt_error_pct", "imu_samples",        "wheel_samples",       "rejected_samples",
-      "forecasts",         "forecast_ms_p50",    "forecast_ms_p99",     "cpu_s",
-      "realtime_factor",   "final_pct",          "stops_seen",          "stops_used",
-      "threshold_m",       "closure_m",          "closure_up_m",        "closure_pct",
-      "closure_3sigma_m"};
+  const std::vector<std::string> keys = {"distance_m",
+                                         "duration_s",
+                                         "stop_count",
+                                         "stop_rate_pct",
+                                         "enu_error_pct",
+                                         "median_error_pct",
+                                         "horizontal_median_m",
+                                         "horizontal_std_m",
+                                         "horizontal_max_m",
+                                         "horizontal_final_m",
+                                         "rms_east_m",
+                                         "rms_north_m",
+                                         "rms_up_m",
+                                         "position_nees_mean",
+                                         "coverage_3sigma_pct",
+                                         "wheel_only_error_pct",
+                                         "no_zupt_error_pct",
+                                         "imu_samples",
+                                         "wheel_samples",
+                                         "rejected_samples",
+                                         "forecasts",
+                                         "forecast_ms_p50",
+                                         "forecast_ms_p99",
+                                         "cpu_s",
+                                         "realtime_factor",
+                                         "final_pct",
+                                         "stops_seen",
+                                         "stops_used",
+                                         "threshold_m",
+                                         "forecasts_judged",
+                                         "forecast_horizon_s",
+                                         "forecast_bound_m",
+                                         "forecast_growth_rms_m",
+                                         "forecast_below_pct",
+                                         "closure_m",
+                                         "closure_up_m",
+                                         "closure_pct",
+                                         "closure_3sigma_m"};
   for (std::size_t i = 0; i < keys.size(); ++i) {
     EXPECT_EQ(std::floor(valueOf(json, keys[i])), static_cast<double>(i + 1)) << keys[i];
   }
