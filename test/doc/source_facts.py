@@ -99,7 +99,7 @@ def tuners():
 
 def services():
     """NODE/SERVICE, nodes named as in nodelets.launch."""
-    nodes = dict(re.findall(r'name="(\w+)" args="load slipnav/(\w+)', read("launch/nodelets.launch")))
+    nodes = dict(re.findall(r"\b(\w+)=slipnav/(\w+)", read("launch/nodelets.launch")))
     node_of = {nodelet: node for node, nodelet in nodes.items()}
     served = {f"{node_of[nodelet]}/{name}" for nodelet, text in nodelet_sources()
               for name in re.findall(r'serve\("(\w+)"', text)}
