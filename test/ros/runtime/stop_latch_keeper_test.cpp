@@ -17,7 +17,9 @@ class StopLatchKeeperTest : public ::testing::Test {
   CheckpointParams params_;
 };
 
-TEST_F(StopLatchKeeperTest, IsNamedAfterTheNodelet) { EXPECT_EQ(file(), "/home_of_ros/slipnav_a_stop_supervisor.stop"); }
+TEST_F(StopLatchKeeperTest, IsNamedAfterTheNodelet) {
+  EXPECT_EQ(file(), "/home_of_ros/slipnav_a_stop_supervisor.stop");
+}
 
 TEST_F(StopLatchKeeperTest, LiesBesideTheCheckpoint) {
   params_.file = "/var/lib/rover/state";
