@@ -24,6 +24,7 @@
 #include "core/stopping/forecast_gate.h"
 #include "core/stopping/obedience_watch.h"
 #include "core/stopping/stop_reach.h"
+#include "core/stopping/stop_verdict.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/stop_messages.h"
 #include "ros/messages/stop_outputs.h"
@@ -270,7 +271,7 @@ class StopSupervisorNodelet : public CoreNodelet {
       return;
     }
     if (status.state >= StopState::kStopping || reported_ >= StopState::kStopping) {
-      NODELET_INFO("%s: %s", name(status.state), status.reason.c_str());
+      NODELET_INFO("%s: %s", nameOf(status.state), status.reason.c_str());
     }
     reported_ = status.state;
     announce();
@@ -286,70 +287,33 @@ class StopSupervisorNodelet : public CoreNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) override {
     using diagnostic_msgs::DiagnosticStatus;
     const SupervisorStatus& status = supervisor_->status();
-    const std::string danger = dangerOf(status);
-    const std::string problem = problemOf(status);
-    diagnostics.summary(!danger.empty()    ? DiagnosticStatus::ERROR
-                        : !problem.empty() ? DiagnosticStatus::WARN
-                                           : DiagnosticStatus::OK,
-                        !danger.empty()    ? danger
-                        : !problem.empty() ? problem
-                                           : status.reason);
-    diagnostics.add("state", name(status.state));
+    const StopVerdict verdict = judgeStops(status, supervisor_->mode(), signs());
+    diagnostics.summary(verdict.concern == StopConcern::kDanger    ? DiagnosticStatus::ERROR
+                        : verdict.concern == StopConcern::kProblem ? DiagnosticStatus::WARN
+                                                                   : DiagnosticStatus::OK,
+                        verdict.words);
+    diagnostics.add("state", nameOf(status.state));
     diagnostics.add("stops", status.stops);
     diagnostics.add("stops given up", status.refusals);
     diagnostics.add("refused commands", refused_commands_);
     diagnostics.add("emergency stop is kept in", keeper_->file());
   }
 
-  /// What takes an emergency stop its meaning, now or after a restart.
-  std::string dangerOf(const SupervisorStatus& status) {
-    reach_ = status.emergency_stop ? whyNoEmergencyStop(supervisor_->mode(), outputs_.listeners()) : "";
-    if (!reach_.empty()) {
-      return "emergency stop without effect: " + reach_;
-    }
-    if (obedience_.isIgnored()) {
-      return "the rover drives on although it is told to stop";
-    }
-    if (!keeper_->problem().empty()) {
-      return "emergency stop and override are not kept: " + keeper_->problem();
-    }
-    return publishersOf(topics_.nav_state) > 1 ? "more than one node publishes nav_state: " + estimators() : "";
+  StopSigns signs() {
+    reach_ = supervisor_->latch().emergency_stop ? whyNoEmergencyStop(supervisor_->mode(), outputs_.listeners()) : "";
+    StopSigns signs;
+    signs.unheard = reach_;
+    signs.ignored = obedience_.isIgnored();
+    signs.not_kept = keeper_->problem();
+    signs.rivals = publishersOf(topics_.nav_state) > 1 ? estimators() : "";
+    signs.estimates_missing = estimates_lost_ || !estimates_watch_->hasHeard();
+    signs.commands_unheard = !outputs_.hasListenersToCommands();
+    signs.commands_silent = commands_watch_->isSilent(clocks());
+    signs.forecaster_silent = gate_.forecasterIsSilent();
+    return signs;
   }
 
   std::string estimators() { return joined(endsOf(node().resolveName(topics_.nav_state)).publishers); }
-
-  std::string problemOf(const SupervisorStatus& status) const {
-    if (status.emergency_stop) {
-      return "emergency stop";
-    }
-    if (supervisor_->mode() == StopMode::kOff) {
-      return "";
-    }
-    if (estimates_lost_ || !estimates_watch_->hasHeard()) {
-      return "no estimates";
-    }
-    if (supervisor_->mode() == StopMode::kActive && !outputs_.hasListenersToCommands()) {
-      return "nobody listens to cmd_vel";
-    }
-    if (commands_watch_->isSilent(clocks())) {
-      return "cmd_vel_in is silent";
-    }
-    return status.forecasts_stale || gate_.forecasterIsSilent() ? "no forecasts: periodic stops" : "";
-  }
-
-  static const char* name(StopState state) {
-    switch (state) {
-      case StopState::kDriving:
-        return "driving";
-      case StopState::kCountingDown:
-        return "counting down";
-      case StopState::kStopping:
-        return "stopping";
-      case StopState::kHolding:
-        break;
-    }
-    return "holding";
-  }
 
   static constexpr double kLongestTick_s = 1.0;  ///< between two ticks; more is a clock that was set
 

@@ -200,6 +200,8 @@ TEST_F(RvizPanel, ShowsEveryState) {
   silent_ = true;
   expectState("NO DATA", "stale");
   EXPECT_FALSE(button("stop_now")->isEnabled());
+  EXPECT_EQ(panel_.findChild<QComboBox*>("mode")->currentText(), "") << "what nobody has said is not shown";
+  EXPECT_EQ(panel_.findChild<QDoubleSpinBox*>("threshold")->text(), "–");
   silent_ = false;
   Initialization start;
   start.progress = "stand still, 3 of 5 s";

@@ -173,6 +173,9 @@ std::string previousOf(const std::string& file) { return file + ".1"; }
 void CheckpointParams::visit(ParameterVisitor& v) {
   v.text("file", file,
          "where the state is kept for a restart after a crash; empty: nowhere, and every start is a new one");
+  v.text("launch_file", launch_file,
+         "where it is kept instead while file is empty: for a manager that dies and is started again; of one launch "
+         "alone, and rover.launch names it");
   v.text(
       "stop_file", stop_file,
       "where emergency stop and override are kept, which hold until the operator ends them; empty: beside file, or in "

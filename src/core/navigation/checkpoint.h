@@ -18,6 +18,7 @@ namespace slipnav {
 /// Block `checkpoint`.
 struct CheckpointParams {
   std::string file;
+  std::string launch_file;
   std::string stop_file;
   double interval_s = 2.0;
   double max_age_s = 600.0;
@@ -27,7 +28,9 @@ struct CheckpointParams {
   double max_turn_deg = 20.0;
   void visit(ParameterVisitor& v);
 
-  bool enabled() const { return !file.empty(); }
+  /// Where the state is kept, "" for nowhere.
+  const std::string& place() const { return file.empty() ? launch_file : file; }
+  bool enabled() const { return !place().empty(); }
 };
 
 /// The whole state of filter and slip model at one stamp.

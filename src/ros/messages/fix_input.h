@@ -29,11 +29,15 @@ class FixInput {
   /// Those that a filter which starts at `stamp` has to get. None when all are of another time.
   std::vector<PositionFix> after(Nanoseconds stamp) const;
 
+  /// Stamp of the IMU from which on a filter that knows the fixes until `known` does not wait for more.
+  Nanoseconds decidedAt(Nanoseconds known) const;
+
  private:
   void keep(const PositionFix& fix);
 
   std::string topic_;
   Nanoseconds stamp_offset_;
+  Nanoseconds max_wait_;
   JumpFilter<PositionFix> jumps_{kFixJump};
   StepCount steps_;
   std::deque<PositionFix> newest_;

@@ -24,7 +24,7 @@ std::string placeFor(const CheckpointParams& params, std::string node) {
   if (!params.stop_file.empty()) {
     return params.stop_file == kNowhere ? "" : params.stop_file;
   }
-  if (params.enabled()) {
+  if (!params.file.empty()) {  // not beside that of a launch, which the stop outlasts
     return params.file + ".stop";
   }
   std::replace(node.begin(), node.end(), '/', '_');
