@@ -36,14 +36,14 @@ class Drive:
     def arguments(self, directory):
         """For the executable `simulate`."""
         listed = ["--terrain", self.terrain, "--distance", f"{self.distance_m:g}", "--seed", str(self.seed),
-                  "--policy", self.policy, "--out", directory]
+                  "--policy", self.policy]
         if self.threshold_m is not None:
             listed += ["--threshold", f"{self.threshold_m:g}"]
         for configuration in self.configurations:
             listed += ["--config", configuration]
         for setting in self.settings:
             listed += ["--set", setting]
-        return listed
+        return listed + ["--out", directory]
 
 
 @dataclass(frozen=True)

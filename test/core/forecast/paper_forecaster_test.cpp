@@ -43,10 +43,10 @@ class PaperForecasterTest : public ::testing::Test {
     params_.sigma_points.form = "paper";
     P_.diagonal().segment<3>(kAttitude) << 1e-7, 1e-7, 5e-6;
     P_.diagonal().segment<3>(kVelocity).setConstant(1e-4);
-    P_.diagonal().segment<3>(kPosition) << 0.04, 0.09, 0.01;
+    P_.diagonal().segment<3>(kPosition) << 0.01, 0.02, 0.01;
     P_.diagonal().segment<3>(kAccelBias).setConstant(1e-6);
     P_.diagonal().segment<3>(kGyroBias).setConstant(1e-9);
-    P_(kAttitude + 2, kPosition) = P_(kPosition, kAttitude + 2) = 2e-4;
+    P_(kAttitude + 2, kPosition) = P_(kPosition, kAttitude + 2) = 1e-4;
   }
 
   PaperForecaster make() const { return {Planet::byName("earth"), fifteenStates(), params_}; }

@@ -28,8 +28,8 @@ struct NonholonomicParams {
 /// @param way_m gone in the interval, at least 0
 double constraintInformation(const NonholonomicParams& params, double way_m);
 
-/// @param H_v of the mean velocity over the way. Without `see_attitude` its attitude columns are zero, as in the paper's
-/// H_RC: beside wheel speeds that do depend on the attitude, the heading then seems to be observed.
+/// @param H_v of the mean velocity over the way. Without `see_attitude` its attitude columns are zero, as in the
+/// paper's H_RC: beside wheel speeds that do depend on the attitude, the heading then seems to be observed.
 VelocityJacobian constraintJacobian(const NonholonomicParams& params, const VelocityJacobian& H_v);
 
 /// Lateral speed of the reference point: v_y + ψ_m v_x − tan β v_x = 0.
