@@ -63,7 +63,8 @@ def draw_speeds(axes, run, stop):
     axes.plot(*truth_speed(run), color=palette.TRUTH, lw=2.0, label="truth, over 1 s")
     axes.plot(run.timeline["t"], run.timeline["speed"], color=palette.ESTIMATE, lw=0.8, label="filter")
     if stop.forecast is not None:
-        axes.axvspan(max(stop.driving_since, stop.forecast - WINDOW_S), stop.forecast, color=palette.SAFE, alpha=0.25, lw=0, label="window")
+        begin = max(stop.driving_since, stop.forecast - WINDOW_S)
+        axes.axvspan(begin, stop.forecast, color=palette.SAFE, alpha=0.25, lw=0, label="window")
     axes.set_ylabel("(a) speed [m/s]")
 
 
