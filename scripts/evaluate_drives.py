@@ -24,7 +24,7 @@ from slipnav_drives import page, table  # noqa: E402
 from slipnav_drives.evaluation import Order, evaluate, findings  # noqa: E402
 from slipnav_drives.recordings import recordings_of  # noqa: E402
 
-FOR_ONE = ("odometry", "part")  # options of the executable that say something of a single recording
+FOR_ONE = ("odometry", "part", "figure")  # options of the executable that say something of a single recording
 
 
 def say(text):

@@ -47,7 +47,7 @@ def accuracy_section(groups, outcomes, simulated):
                         + [NOT_KNOWN if kind == "rms" and key not in ERRORS else number(data[name][key][kind], decimals)
                            for _, key, decimals in accuracy.COLUMNS_1])
     rows += [[f"simulated, {name}", "", "median (max)"] + accuracy.simulated_cells(figures, accuracy.COLUMNS_1)
-             for name, figures in simulated.get("table1", {}).items()]
+             for name, figures in simulated.get("table1", {}).items() if name != accuracy.BY_METHOD]
     rows += [[f"paper, {row.name}", "1", ""] + accuracy.paper_cells(row, accuracy.COLUMNS_1) for row in paper.TABLE_1]
     heads = ["group", "drives", ""] + [head for head, _, _ in accuracy.COLUMNS_1]
     notes = ["Over the recordings of a group, each of which counts once. The paper's rows are single drives."]

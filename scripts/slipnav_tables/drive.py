@@ -25,21 +25,25 @@ class Drive:
     settings: Tuple[str, ...] = ()  # BLOCK.KEY=VALUE
     probe_after_stop_s: Optional[float] = None  # read the forecast that is made so long after the first stop
     with_stretches: bool = False  # also where the stops are not autonomous
+    configurations: Tuple[str, ...] = ()  # YAML files
 
     def __str__(self):
-        settings = "".join(f" {setting}" for setting in self.settings)
+        settings = "".join(f" {setting}" for setting in
+                           (*map(os.path.basename, self.configurations), *self.settings))
         threshold = "" if self.threshold_m is None else f" ε {self.threshold_m:g} m"
         return f"{self.terrain} {self.distance_m:g} m {self.policy}{threshold}{settings} seed {self.seed}"
 
     def arguments(self, directory):
         """For the executable `simulate`."""
         listed = ["--terrain", self.terrain, "--distance", f"{self.distance_m:g}", "--seed", str(self.seed),
-                  "--policy", self.policy, "--out", directory]
+                  "--policy", self.policy]
         if self.threshold_m is not None:
             listed += ["--threshold", f"{self.threshold_m:g}"]
+        for configuration in self.configurations:
+            listed += ["--config", configuration]
         for setting in self.settings:
             listed += ["--set", setting]
-        return listed
+        return listed + ["--out", directory]
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,24 @@ void mergeChecked(const YAML::Node& document, const std::string& source, YAML::N
   merged.reset(mergeYaml(merged, document));
 }
 
+/// The paper's forecast and the sliding one have settings that are the other's or would undo it.
+void requireOneMethod(const ForecastParams& forecast, const StopParams& stop) {
+  const bool paper = forecast.schedule == "paper";
+  if (!paper && forecast.sigma_points.form != "unscented") {
+    throw std::invalid_argument("'forecast.sigma_points.form: " + forecast.sigma_points.form +
+                                "' needs 'forecast.schedule: paper'");
+  }
+  if (paper && forecast.bound != "absolute") {
+    throw std::invalid_argument("'forecast.schedule: paper' contradicts 'forecast.bound: " + forecast.bound +
+                                "', it needs 'absolute'; config/paper.yaml has all that belongs to it");
+  }
+  if (paper && stop.forecast_timeout_s <= forecast.window_s) {
+    throw std::invalid_argument(
+        "'forecast.schedule: paper' contradicts 'stop.forecast_timeout_s', which must be above 'forecast.window_s': "
+        "before the first forecast stops would become periodic");
+  }
+}
+
 /// An override has a name, but no lines that an error could point at.
 void mergeOverride(const Override& item, YAML::Node& merged) {
   try {
@@ -88,6 +106,7 @@ void Config::requireConsistent() const {
   if (forecast.horizon_s < forecast.step_s) {
     throw std::invalid_argument("'forecast.horizon_s' must not be below 'forecast.step_s'");
   }
+  requireOneMethod(forecast, stop);
 }
 
 Config Config::load(const std::vector<std::string>& yaml_files, const std::vector<Override>& overrides) {

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "config/config.h"
-#include "core/forecast/forecaster.h"
+#include "core/forecast/forecast_method.h"
 #include "evaluation/report.h"
 
 namespace slipnav {
 
-/// Owns a Forecaster and one row per forecast and whole second of its horizon.
+/// Owns a forecaster and one row per forecast and whole second of its horizon.
 class ForecastRecorder {
  public:
   using Sink = std::function<void(const ErrorOutlook&)>;
@@ -31,7 +31,8 @@ class ForecastRecorder {
  private:
   void keep(const Forecast& forecast);
 
-  Forecaster forecaster_;
+  ForecastMethod forecaster_;
+  SigmaPoints sigma_points_;
   std::vector<ForecastRow> errors_;
   std::vector<SlipForecastRow> slips_;
   std::vector<double> times_ms_;

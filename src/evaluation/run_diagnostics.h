@@ -33,6 +33,7 @@ struct SlipForecastRow {
   double horizon_s = 0.0;  ///< ahead of that
   double mean = 0.0;       ///< of the latent slip ratio
   double stddev = 0.0;
+  std::array<double, 3> wheel_speed_mps = {};  ///< of the sigma points, that of the mean first
 };
 
 /// The rows of all files of one run.
@@ -60,7 +61,8 @@ class FilterRecorder {
 void writeFilterCsv(const std::string& path, const std::vector<FilterRow>& rows);
 /// `wheel_track.csv`: t, east, north.
 void writeWheelTrackCsv(const std::string& path, const PlanarTrack& track);
-/// `slip_forecasts.csv`: t, horizon_s, mean, stddev.
+/// `slip_forecasts.csv`: t, horizon_s, mean, stddev, wheel_speed, wheel_speed_above, wheel_speed_below: of the sigma
+/// points [m/s].
 void writeSlipForecastsCsv(const std::string& path, const std::vector<SlipForecastRow>& rows);
 /// `nees.csv`: t, nees, truth_sigma_e, truth_sigma_n, truth_sigma_u. Of the position, eᵀ(P + R)⁻¹e with three degrees
 /// of freedom and R of truth, at its epochs; and the roots of R's diagonal, 0 where truth does not say how good it is.

@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "core/forecast/forecaster.h"
+#include "core/forecast/forecast_method.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/forecast_messages.h"
 #include "ros/messages/internal_messages.h"
@@ -123,7 +123,7 @@ class ForecastNodelet : public CoreNodelet {
 
   FrameNames frames_;
   std::string model_;
-  std::optional<Forecaster> forecaster_;
+  std::optional<ForecastMethod> forecaster_;
   SlipFit fit_;
   double time_to_stop_s_ = 0.0;
   double computation_ms_ = 0.0;

@@ -114,7 +114,7 @@ class StopSupervisorNodelet : public CoreNodelet {
   }
 
   void onForecast(const ErrorForecast::ConstPtr& message) {
-    gate_.push(StopForecast{toNanoseconds(message->header.stamp), message->time_to_stop_s});
+    gate_.push(StopForecast{toNanoseconds(message->header.stamp), message->time_to_stop_s, message->kept_s});
     proceed();
   }
 

@@ -34,14 +34,17 @@ CommandLine commandLine() {
       .repeated("compare", "NAME=TOPIC|NAME=FILE.tum",
                 "poses of somebody else on the same drive: a further row, compare_NAME.csv and compare_NAME.tum")
       .flag("returns-to-start", "the drive ends where it began: without truth it is judged by that")
-      .flag("report", "plots into the same place");
+      .flag("report", "plots into the same place")
+      .option("figure", "STOP", "the paper's figure of that stop, counted from 1, as stop_STOP.png in the same place");
   slipnav::declareConfigOptions(command_line);
   return command_line;
 }
 
 void checkArguments(const Arguments& arguments) {
-  if (arguments.given("report") && !arguments.given("out")) {
-    throw slipnav::UsageError("--report needs --out");
+  for (const char* plots : {"report", "figure"}) {
+    if (arguments.given(plots) && !arguments.given("out")) {
+      throw slipnav::UsageError("--" + std::string(plots) + " needs --out");
+    }
   }
 }
 
@@ -135,6 +138,9 @@ int run(int argc, char** argv) {
   }
   if (arguments.given("report")) {
     slipnav::plotReport(arguments.text("out"));
+  }
+  if (arguments.given("figure")) {
+    slipnav::plotStop(arguments.text("out"), static_cast<int>(arguments.integer("figure", {1.0, 1e6})));
   }
   std::cout << slipnav::tableHeader() << slipnav::tableRows(slipnav::runName(bag), std::nullopt, report)
             << slipnav::runName(bag) << ": " << report.metrics.verdict << '\n';

@@ -18,6 +18,7 @@ struct ErrorOutlook {
   /// horizon, zero when it is there already.
   double time_to_stop_s = std::numeric_limits<double>::infinity();
   double stop_distance_m = std::numeric_limits<double>::infinity();
+  double kept_s = 0.0;  ///< so long the forecast holds without another one; zero where they are made all the time
 };
 
 }  // namespace slipnav

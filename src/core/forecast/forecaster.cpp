@@ -118,9 +118,6 @@ bool Forecaster::collect(const Estimate& estimate) {
 }
 
 bool Forecaster::isDue(Nanoseconds stamp) {
-  if (params_.schedule == "paper") {
-    return static_cast<double>(drive_.size()) * params_.wheel_interval_s >= params_.window_s;
-  }
   const Nanoseconds slot = stamp / fromSeconds(params_.interval_s);
   const bool due = slot != last_slot_;
   last_slot_ = slot;
@@ -129,7 +126,7 @@ bool Forecaster::isDue(Nanoseconds stamp) {
 
 SlipSamples Forecaster::window() const {
   // What the filter takes for the slip impulse of a wheel that lost its grip is not what it navigates by.
-  const bool all = !params_.correlatesSlip() || !setup_.filter.uses("wheel");
+  const bool all = !setup_.filter.uses("wheel");
   SlipSamples samples;
   for (const Drive& drive : drive_) {
     if (all || drive.wheel_speed_used) {
@@ -153,9 +150,7 @@ std::optional<Forecast> Forecaster::make(const Estimate& estimate) {
   forecast.slip =
       model_.predict(Eigen::VectorXd::LinSpaced(count, now_s + params_.wheel_interval_s, now_s + params_.horizon_s));
   forecast.slip.times_s.array() -= now_s;
-  if (params_.correlatesSlip()) {
-    forecast.correlation = summarizeCorrelation(model_, now_s, params_.horizon_s, kCorrelationPoints);
-  }
+  forecast.correlation = summarizeCorrelation(model_, now_s, params_.horizon_s, kCorrelationPoints);
   learnGround(forecast);
   weighAgainstFilter(estimate);
   forecast.outlook = outlook_;
@@ -166,9 +161,6 @@ std::optional<Forecast> Forecaster::make(const Estimate& estimate) {
   if (!isFinite(forecast)) {
     problem_ = "the forecast is not finite";
     return std::nullopt;
-  }
-  if (params_.schedule == "paper") {
-    drive_.clear();
   }
   return forecast;
 }
@@ -208,14 +200,6 @@ void Forecaster::learnGround(const Forecast& forecast) {
   learnSpeedAndSideSlip();
   const double speed_mps = std::abs(outlook_.speed_mps);
   const double mean_slip = forecast.slip.mean.mean();
-  if (!params_.correlatesSlip()) {
-    const double slip_std = forecast.slip.stddev.norm() / std::sqrt(static_cast<double>(forecast.slip.stddev.size()));
-    const WheelSpeedPrediction wheel = sigma_points_.predict(speed_mps, mean_slip, slip_std);
-    outlook_.wheel_speed_mps = std::copysign(wheel.mean_mps, outlook_.speed_mps);
-    outlook_.wheel_noise_variance = square(setup_.wheel.speed_std_mps) + wheel.variance;
-    outlook_.drift_std = outlook_.change_std = 0.0;
-    return;
-  }
   const double noise_std = std::sqrt(forecast.fit.hyperparameter("noise_variance"));
   const double slip_std = std::hypot(forecast.correlation.stddev, forecast.correlation.bias_stddev);
   const WheelSpeedPrediction wheel = sigma_points_.predict(speed_mps, mean_slip, std::hypot(slip_std, noise_std));

@@ -8,6 +8,7 @@
 /// Sources: Kilic et al. 2021, section IV-C; S. Julier, J. Uhlmann, A new method for the nonlinear transformation of
 /// means and covariances in filters and estimators, IEEE Transactions on Automatic Control 45(3), 2000.
 
+#include <array>
 #include <string>
 
 #include "slipnav/core/parameters/parameter_visitor.h"
@@ -18,14 +19,18 @@ namespace slipnav {
 enum class SigmaPointForm {
   /// Points μ, μ ± cσ with weights 1 − 1/c², 1/(2c²), 1/(2c²): exact on a linear map; variance in (m/s)².
   kUnscented,
-  /// The paper's equations to the letter: points v/(1 − μ) and v/(1 − μ ± σ²) (it calls the variance σ_s), equal
-  /// weights, the mean squared spread called σ_χ and squared again: "variance" in (m/s)⁴. For comparison only.
+  /// The paper's points v/(1 − μ) and v/(1 − μ ± σ), equal weights, variance their mean squared spread: its equations
+  /// with σ_s a standard deviation and R^GP the mean squared spread that it calls σ_χ. In (m/s)².
   kPaper,
+  /// The same to the letter: σ_s is the variance of slip, which it calls it, and the mean squared spread is squared
+  /// once
+  /// more: (m/s)⁴, and some millions of times too small. For comparison only.
+  kLetter,
 };
 
 /// Block `forecast.sigma_points`.
 struct SigmaPointParameters {
-  std::string form = "unscented";      ///< unscented or paper
+  std::string form = "unscented";      ///< unscented, paper or letter
   double spread = 1.7320508075688772;  ///< c, at least 1; √3 matches the fourth moment of a Gaussian
   double max_slip = 0.9;               ///< points are clamped to ±max_slip, short of the pole at s = 1
 
@@ -38,7 +43,7 @@ double wheelSpeedFromSlip(double speed_mps, double slip);
 /// Circumferential speed of the wheels at the slip predicted.
 struct WheelSpeedPrediction {
   double mean_mps = 0.0;
-  double variance = 0.0;  ///< (m/s)² for the unscented form
+  double variance = 0.0;  ///< (m/s)² but for the letter
   /// Change of wheel speed per unit of slip, from the statistical linearisation Cov(χ, s)/Var(s) [m/s]; what couples a
   /// slip error that persists to the wheel speed.
   double sensitivity_mps = 0.0;
@@ -54,9 +59,14 @@ class SigmaPoints {
   /// @param slip_mean,slip_stddev of the predicted slip; the deviation is not negative
   WheelSpeedPrediction predict(double speed_mps, double slip_mean, double slip_stddev) const;
 
+  /// The wheel speeds of the points, that of the mean first [m/s].
+  std::array<double, 3> points(double speed_mps, double slip_mean, double slip_stddev) const;
+
  private:
   WheelSpeedPrediction unscented(double speed_mps, double slip_mean, double slip_stddev) const;
   WheelSpeedPrediction paper(double speed_mps, double slip_mean, double slip_stddev) const;
+  double wheelSpeed(double speed_mps, double slip) const;
+  double reach(double slip_stddev) const;
   double clampSlip(double slip) const;
 
   SigmaPointForm form_;

@@ -14,8 +14,6 @@ namespace {
 
 // Wide enough that what follows decides: the filter sees the same samples again and must not count them twice.
 constexpr double kLevelStd_rad = 2.0 * kPi / 180.0;
-// The course of the drive is the heading but for side slip and mounting, however well the fixes tell it.
-constexpr double kLeastDriveHeadingStd_rad = 1.0 * kPi / 180.0;
 constexpr double kHeadingStdFactor = 3.0;
 // The drive goes on until its fixes tell the heading so well, or is taken as it is after so many times its usual
 // length.
@@ -57,6 +55,9 @@ void InitializationParams::visit(ParameterVisitor& v) {
   v.number("min_rest_s", min_rest_s, {0.5, 3600.0}, "shortest standstill that serves for levelling [s]");
   v.number("max_rest_s", max_rest_s, {1.0, 3600.0}, "what is remembered of a longer one [s]");
   v.number("drive_distance_m", drive_distance_m, {1.0, 1000.0}, "length of the drive that gives the heading [m]");
+  v.number("drive_heading_std_deg", drive_heading_std_deg, {1e-3, 45.0},
+           "least 1σ of that heading: it is the course of the drive but for side slip and mounting, however well the "
+           "fixes tell it [°]");
   v.number("levelling_window_s", levelling_window_s, {0.5, 600.0},
            "length of the window for levelling without a standstill [s]");
   v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0}, "1σ of roll and pitch levelled on the move [°]");
@@ -275,7 +276,7 @@ InitialState Initializer::beginOfDrive(Nanoseconds begin, const DriveFit& fit, b
   });
   initial.P.diagonal().segment<3>(kPosition) = square(kFixStdFactor) * best->variance_ned_m2;
   initial.P(kAttitude + 2, kAttitude + 2) =
-      square(std::max(kLeastDriveHeadingStd_rad, kHeadingStdFactor * fit.heading_std_rad));
+      square(std::max(degToRad(params_.drive_heading_std_deg), kHeadingStdFactor * fit.heading_std_rad));
   return initial;
 }
 

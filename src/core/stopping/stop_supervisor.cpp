@@ -96,7 +96,8 @@ void StopSupervisor::setForecast(const StopForecast& forecast) {
   if (!in_order || forecast.stamp > newest_.stamp || std::isnan(forecast.time_to_stop_s)) {
     return;
   }
-  forecast_ = {forecast.stamp, std::max(0.0, forecast.time_to_stop_s)};
+  const bool kept = forecast.kept_s > 0.0 && forecast.kept_s < kFarthestStop_s;  // neither is NaN
+  forecast_ = {forecast.stamp, std::max(0.0, forecast.time_to_stop_s), kept ? forecast.kept_s : 0.0};
   advance();
 }
 
@@ -193,7 +194,8 @@ void StopSupervisor::advance() {
 }
 
 void StopSupervisor::watchForecasts() {
-  const Nanoseconds since = forecast_ ? std::max(forecast_->stamp, driving_since_) : driving_since_;
+  const bool holds = forecast_ && forecast_->stamp >= driving_since_;
+  const Nanoseconds since = holds ? forecast_->stamp + fromSeconds(forecast_->kept_s) : driving_since_;
   status_.forecasts_stale = has_estimates_ && toSeconds(newest_.stamp - since) > params_.forecast_timeout_s;
 }
 

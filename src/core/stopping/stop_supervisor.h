@@ -24,6 +24,7 @@ struct StopForecast {
   Nanoseconds stamp = 0;  ///< when it begins
   /// Until the error bound passes its threshold [s]; infinite when it does not within the horizon.
   double time_to_stop_s = std::numeric_limits<double>::infinity();
+  double kept_s = 0.0;  ///< so long it holds without another one
 };
 
 /// In the order in which a stop goes through them.

@@ -152,6 +152,14 @@ void finish(const OfflineRun& run, const TruthAlignment& alignment, BagEvaluatio
   noteFindings(evaluation);
 }
 
+void plot(std::vector<std::string> command) {
+  command.insert(command.begin(), packageExecutable("plot_report.py"));
+  ChildProcess plotter(command);
+  if (plotter.wait() != 0) {
+    throw std::runtime_error("the plots could not be made");
+  }
+}
+
 }  // namespace
 
 BagEvaluation evaluateBag(const std::string& path, const Config& config, const std::string& truth,
@@ -209,12 +217,9 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   return result;
 }
 
-void plotReport(const std::string& directory) {
-  ChildProcess plotter({packageExecutable("plot_report.py"), directory});
-  if (plotter.wait() != 0) {
-    throw std::runtime_error("the plots could not be made");
-  }
-}
+void plotReport(const std::string& directory) { plot({directory}); }
+
+void plotStop(const std::string& directory, int number) { plot({directory, "--figure", std::to_string(number)}); }
 
 std::string runName(const std::string& path) {
   const std::string file = path.substr(path.find_last_of('/') + 1);

@@ -50,6 +50,9 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
 /// Draws the plots of a report that is in `directory`. Throws std::runtime_error when that fails.
 void plotReport(const std::string& directory);
 
+/// Draws the paper's figure of one of its stops, counted from 1, as stop_NUMBER.png. Throws likewise.
+void plotStop(const std::string& directory, int number);
+
 /// Name of a run in tables: the file without folder and ending.
 std::string runName(const std::string& path);
 

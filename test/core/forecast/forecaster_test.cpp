@@ -153,15 +153,6 @@ TEST_F(ForecasterTest, MoreSlipMeansAnEarlierStop) {
   EXPECT_GT(early_m, 1.05 * late_m);
 }
 
-TEST_F(ForecasterTest, PapersScheduleForecastsOncePerWindow) {
-  ForecastParams params;
-  params.schedule = "paper";
-  params.slip.model = "paper";
-  Forecaster forecaster = make(params);
-  ASSERT_TRUE(drive(forecaster, 460, 0.02));
-  EXPECT_EQ(forecasts_, 3);
-}
-
 TEST_F(ForecasterTest, ConstantSlipAndSlipThatIsNotANumberAreForecast) {
   Forecaster forecaster = make();
   const std::optional<Forecast> constant = drive(forecaster, 100, 0.0);

@@ -216,6 +216,35 @@ TEST(StopSupervisor, StaleForecastsMakeStopsPeriodic) {
   EXPECT_EQ(rig.state(), kD);
 }
 
+TEST(StopSupervisor, ForecastThatIsKeptIsNotStaleBeforeItsStop) {
+  Rig rig("active");
+  driveTenSeconds(rig);
+  rig.forecast(30.0, 30.0);
+  rig.during(28.3, [&rig] { rig.moving(); });
+  EXPECT_FALSE(rig.supervisor.status().forecasts_stale);
+  EXPECT_EQ(rig.state(), kC);
+  rig.during(0.2, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kS) << "30 s less the time to slow down";
+  EXPECT_EQ(rig.supervisor.status().reason, "the position error comes to its threshold");
+}
+
+TEST(StopSupervisor, ForecastIsKeptNoLongerThanItSaysNorPastAStandstill) {
+  Rig rig("advise");
+  driveTenSeconds(rig);
+  rig.forecast(kInfinity, 10.0);
+  rig.during(15.0, [&rig] { rig.moving(); });
+  EXPECT_FALSE(rig.supervisor.status().forecasts_stale);
+  rig.during(0.2, [&rig] { rig.moving(); });
+  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
+  rig.forecast(kInfinity, 1000.0);
+  rig.during(2.0, [&rig] { rig.standing(1e-5); });
+  rig.during(5.2, [&rig] { rig.moving(); });
+  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
+  rig.forecast(kInfinity, std::nan(""));
+  rig.during(5.2, [&rig] { rig.moving(); });
+  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
+}
+
 TEST(StopSupervisor, AStandstillOfTheOperatorsOwnCountsForThePeriod) {
   Rig rig("active");
   rig.during(9.0, [&rig] { rig.moving(); });

@@ -34,6 +34,7 @@ struct InitializationParams {
   double min_rest_s = 5.0;
   double max_rest_s = 60.0;
   double drive_distance_m = 10.0;
+  double drive_heading_std_deg = 1.0;
   double levelling_window_s = 10.0;
   double moving_level_std_deg = 1.0;
   double moving_speed_std_mps = 0.1;

@@ -280,7 +280,7 @@ void FilterEngine::loosen(const Measurement& forward, Nanoseconds stamp, double 
 
 void FilterEngine::addConstraints(Nanoseconds stamp, MeasurementSet& set) {
   const BodyMotion motion = *constraint_average_.mean();
-  const VelocityJacobian H_v = constraint_average_.jacobian();
+  const VelocityJacobian H_v = constraintJacobian(setup_.nonholonomic, constraint_average_.jacobian());
   const NoiseFactors factors = adaptation_.factors();
   const double information =
       constraintInformation(setup_.nonholonomic, std::abs(motion.v_eb_b.x()) * motion.duration_s);

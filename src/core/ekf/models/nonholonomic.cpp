@@ -29,6 +29,16 @@ void NonholonomicParams::visit(ParameterVisitor& v) {
   v.number("length_m", length_m, {0.0, 100.0},
            "way over which both are averaged, of the order of the vehicle's own length [m]");
   v.number("max_interval_s", max_interval_s, {0.0, 60.0}, "longest time over which both are averaged [s]");
+  v.flag("see_attitude", see_attitude,
+         "whether they depend on the attitude, as they do; false for the paper's approximation");
+}
+
+VelocityJacobian constraintJacobian(const NonholonomicParams& params, const VelocityJacobian& H_v) {
+  VelocityJacobian H = H_v;
+  if (!params.see_attitude) {
+    H.middleCols<3>(kAttitude).setZero();
+  }
+  return H;
 }
 
 double constraintInformation(const NonholonomicParams& params, double way_m) {

@@ -117,6 +117,19 @@ TEST(MeasurementJacobian, Vertical) {
   EXPECT_DOUBLE_EQ(model(point).H(0, kMountPitch), -motionOf(point).v_eb_b.x());
 }
 
+TEST(MeasurementJacobian, ConstraintThatDoesNotSeeTheAttitudeHasNoColumnsOfIt) {
+  VelocityJacobian H_v;
+  for (int column = 0; column < kErrorStates; ++column) {
+    H_v.col(column).setConstant(1.0 + column);
+  }
+  NonholonomicParams params;
+  EXPECT_EQ(constraintJacobian(params, H_v), H_v);
+  params.see_attitude = false;
+  const VelocityJacobian H = constraintJacobian(params, H_v);
+  EXPECT_TRUE(H.middleCols<3>(kAttitude).isZero(0.0));
+  EXPECT_EQ(H.rightCols<kErrorStates - 3>(), H_v.rightCols<kErrorStates - 3>());
+}
+
 TEST(MeasurementJacobian, ZeroVelocity) {
   const Model model = [](const Point& p) { return zeroVelocityMeasurement(1e-6, p.nav); };
   expectJacobian("zero velocity", model, {kVelocity, kVelocity + 1, kVelocity + 2});

@@ -18,6 +18,7 @@ struct NonholonomicParams {
   double vertical_turn_std_m = 0.03;
   double length_m = 1.0;
   double max_interval_s = 2.0;
+  bool see_attitude = true;
   void visit(ParameterVisitor& v);
 };
 
@@ -26,6 +27,10 @@ struct NonholonomicParams {
 /// much less information.
 /// @param way_m gone in the interval, at least 0
 double constraintInformation(const NonholonomicParams& params, double way_m);
+
+/// @param H_v of the mean velocity over the way. Without `see_attitude` its attitude columns are zero, as in the
+/// paper's H_RC: beside wheel speeds that do depend on the attitude, the heading then seems to be observed.
+VelocityJacobian constraintJacobian(const NonholonomicParams& params, const VelocityJacobian& H_v);
 
 /// Lateral speed of the reference point: v_y + ψ_m v_x − tan β v_x = 0.
 /// @param H_v of motion.v_eb_b; @param factor learned, on the variance
