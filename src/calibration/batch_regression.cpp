@@ -49,7 +49,7 @@ MatrixXd invert(const MatrixXd& information) {
   const VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<MatrixXd> factors(scale.asDiagonal() * information * scale.asDiagonal());
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kLeastPivot)) {
-    throw std::invalid_argument("the samples do not tell the parameters apart");
+    throw std::invalid_argument("the samples do not separate the parameters");
   }
   const auto n = information.rows();
   return scale.asDiagonal() * factors.solve(MatrixXd::Identity(n, n)) * scale.asDiagonal();

@@ -63,7 +63,7 @@ SmoothedDrive smooth(const Planet& planet, const Config& config, const Calibrati
   result.fix_noise_factor = std::sqrt(variance_factor);
   if (static_cast<double>(smoothed.refused_fixes) > kRefusedShare * static_cast<double>(smoothed.fixes)) {
     result.warnings.push_back(std::to_string(smoothed.refused_fixes) +
-                              " truth positions contradict the IMU and were left out");
+                              "truth positions contradict the IMU and were rejected");
   }
   return smoothed;
 }
@@ -79,8 +79,8 @@ void describeDrive(const std::vector<MotionSample>& samples, CalibrationResult& 
   }
   if (result.distance_m < kLeastDistance_m) {
     throw std::invalid_argument("the rover drives " + withUnit(result.distance_m, "m") +
-                                " while truth, IMU and wheels are all there; calibration needs " +
-                                withUnit(kLeastDistance_m, "m") + " at the very least");
+                                " while truth, IMU and wheels are all available; calibration needs " +
+                                withUnit(kLeastDistance_m, "m") + " at least");
   }
   result.heading_std_rad = std::sqrt(heading_variance_s / moving_s);
 }

@@ -111,7 +111,7 @@ void calibratePitch(double batch_m, const std::vector<MotionSample>& samples, Ca
 void calibrateMount(const Config& config, const std::vector<MotionSample>& samples, CalibrationResult& result) {
   calibrateYaw(config.calibration.batch_m, samples, result);
   calibratePitch(config.calibration.batch_m, samples, result);
-  result.not_observable.push_back("roll of the IMU: no course shows it; level the vehicle on a known surface for that");
+  result.not_observable.push_back("roll of the IMU: not visible in any course; level the vehicle on a known surface");
 }
 
 }  // namespace slipnav

@@ -127,8 +127,7 @@ void calibrateWheels(const Config& config, const std::vector<MotionSample>& samp
   result.has_wheel_rates = samples.front().wheels.count > 0;
   result.sides_differ = sides.present(samples.front().wheels);
   if (!result.sides_differ) {
-    result.not_observable.push_back(
-        "scrub factor, and radii side by side: there are no speeds of wheels to both sides");
+    result.not_observable.push_back("scrub factor, and radii per side: there are no wheel speeds on both sides");
   } else {
     const bool turns = result.turned_rad >= kLeastTurnForScrub_rad;
     side_fit = fitSides(sides, params.batch_m, config.wheel.scrub_factor, turns, samples);
@@ -150,7 +149,7 @@ void calibrateWheels(const Config& config, const std::vector<MotionSample>& samp
   result.right_radius_ratio = radii.ratio(-1.0);
   result.slip = radii.slip();
   if (result.slip && result.slip->value < -kFirmDoubt * result.slip->std) {
-    result.warnings.push_back("wheels slip more on the ground that was to be firm than later on: radii are too small");
+    result.warnings.push_back("the wheels slip more on the firm ground than later: the radii are too small");
   }
   if (result.slip && result.slip->value > kSoftSlip) {
     result.warnings.push_back("wheels slip by several percent: on such ground side slip turns the mounting angles");

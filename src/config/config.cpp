@@ -33,24 +33,24 @@ void ImuConfig::visit(ParameterVisitor& v) {
 }
 
 void Config::visit(ParameterVisitor& v) {
-  v.choice("planet", planet, {"earth", "mars", "moon"}, "whose ellipsoid, gravity and rotation hold");
+  v.choice("planet", planet, {"earth", "mars", "moon"}, "whose ellipsoid, gravity and rotation apply");
   v.group("topics", topics, "what the robot or the recording calls each topic");
   v.group("frames", frames, "coordinate frames");
   v.group("imu", imu, "the inertial sensor");
   v.group("gps_mount", gps_mount, "where the antenna of gps/fix is");
-  v.group("truth_mount", truth_mount, "where the point is whose position the truth topics give");
-  v.group("truth", truth, "how truth is laid over the estimate");
+  v.group("truth_mount", truth_mount, "where the point tracked by the truth topics is");
+  v.group("truth", truth, "how truth is aligned with the estimate");
   v.list("wheels", wheels, "driven wheels, in the order of slip messages");
-  v.group("wheel", wheel, "what the wheels' speeds are worth");
-  v.group("wheel_monitor", wheel_monitor, "when a wheel is taken for broken");
+  v.group("wheel", wheel, "wheel speeds: source, timing and noise");
+  v.group("wheel_monitor", wheel_monitor, "when a wheel is considered faulty");
   v.group("vehicle", vehicle, "how vehicle and ground behave between measurements");
-  v.group("nonholonomic", nonholonomic, "what it is worth that the rover moves along its wheels");
-  v.group("zero_motion", zero_motion, "what standstill is worth");
+  v.group("nonholonomic", nonholonomic, "non-holonomic constraints: noise and averaging");
+  v.group("zero_motion", zero_motion, "zero-velocity and zero-rate updates: noise");
   v.group("stationary", stationary, "when the rover counts as standing still");
   v.group("gnss", gnss, "what satellite positions are used for");
   v.group("filter", filter, "error-state Kalman filter");
   v.group("initialization", initialization, "how the start is found");
-  v.group("checkpoint", checkpoint, "going on after a crash");
+  v.group("checkpoint", checkpoint, "resuming after a crash");
   v.group("forecast", forecast, "how slip and position error are forecast");
   v.group("overlay", overlay, "what rviz shows of a drive");
   v.group("stop", stop, "when the rover stops for a zero update, and how");

@@ -48,7 +48,7 @@ class OfflineRun {
 
   bool hasEstimates() const { return !estimates_.empty(); }
   /// Why there are none, in one line: what the initialisation was waiting for.
-  std::string failure() const { return "the initialisation did not end: " + pipeline_.initializer().progress(); }
+  std::string failure() const { return "the initialization did not finish: " + pipeline_.initializer().progress(); }
 
   /// Throws std::runtime_error with failure() when there are no estimates.
   RunReport finish(const TruthAlignment& alignment) const;

@@ -111,7 +111,7 @@ SlipSamples readSlipCsv(const std::string& path) {
 SlipForecastResult forecastSlip(const SlipSamples& samples, const SlipModelParameters& parameters, double horizon_s) {
   const auto steps = static_cast<Eigen::Index>(std::floor(horizon_s / kSlipForecastStep_s + 1e-9));
   if (steps < 2) {
-    throw std::invalid_argument("slip forecast: the horizon must be two steps of 0.1 s at least");
+    throw std::invalid_argument("slip forecast: the horizon must be at least two steps of 0.1 s");
   }
   GaussianProcessSlipModel model(parameters);
   SlipForecastResult forecast;

@@ -32,8 +32,8 @@ class Proposal {
 
   std::string text(const std::string& source) {
     yaml_ = "# From " + source +
-            ", by check. What is not here keeps its default: give what a data sheet and a ruler\n" +
-            "# say (imu.noise, imu.input.sampling, imu.mount.x_m to z_m).\n";
+            ", by check. Anything not listed keeps its default: add what a data sheet and a ruler\n" +
+            "# give (imu.noise, imu.input.sampling, imu.mount.x_m to z_m).\n";
     writeTopics();
     writeFrames();
     writeImu();
@@ -106,14 +106,14 @@ class Proposal {
     const Mounting& mounting = found_.mounting;
     yaml_ += "\n";
     if (!mounting.is_sure) {
-      comment("imu.mount: this drive does not tell it");
+      comment("imu.mount: not determined by this drive");
       return "";
     }
     if (mounting.has_turn && mounting.turn_per_rate < 0.0) {
       comment("imu.mount: gyros and wheels contradict each other");
       return "";
     }
-    const std::string measured = decimal(radToDeg(mounting.left_over_rad), 1) + " deg left over, heading ± " +
+    const std::string measured = decimal(radToDeg(mounting.left_over_rad), 1) + " deg remaining, heading ± " +
                                  decimal(radToDeg(mounting.forward_std_rad), 1) + " deg (1 sigma)";
     const bool by_tf = options_.tf && isNear(toRotation(*options_.tf));
     comment(by_tf
@@ -156,7 +156,7 @@ class Proposal {
   double track(double radius_m) {
     const Mounting& mounting = found_.mounting;
     if (!mounting.has_turn || mounting.turn_per_rate <= 0.0) {
-      comment("the drive does not tell the track: with y_m 0 the wheels say nothing of turns; measure it");
+      comment("the drive does not determine the track: with y_m 0 wheel turns are not used; measure it");
       return 0.0;
     }
     const double track_m = (found_.track.in_meters ? 1.0 : radius_m) * mounting.turn_per_rate;

@@ -99,14 +99,14 @@ void describeRests(const std::string& topic, const RestPicture& picture, Finding
     total_s += rest.end_s - rest.begin_s + 2.0 * kMargin_s;
   }
   findings.push_back({Severity::kRemark, topic,
-                      counted(picture.rests.size(), "rest") + " of 2 s and more, " + decimal(total_s, 0) +
+                      counted(picture.rests.size(), "rest") + " of 2 s or more, " + decimal(total_s, 0) +
                           " s in all; samples scatter by " + noiseText(picture.force_std, picture.rate_std) +
                           " there, from one to the next by " +
                           noiseText(picture.driving_force_std, picture.driving_rate_std) + " while driving",
                       "nothing: it is learned; imu.noise takes the data sheet's values"});
   if (picture.force_std.maxCoeff() > kStillForce_mps2 || picture.rate_std.maxCoeff() > kStillRate_radps) {
-    findings.push_back({Severity::kDoubtful, topic, "the vehicle is not still while its wheels stand",
-                        "nobody touches it at rest; with an engine that runs, raise stationary.accel_std_mps2 and "
+    findings.push_back({Severity::kDoubtful, topic, "the vehicle is not still while its wheels are at rest",
+                        "do not touch it at rest; with an engine running, raise stationary.accel_std_mps2 and "
                         "stationary.gyro_std_deg_per_s"});
   }
 }
@@ -163,7 +163,8 @@ LeastBias leastBias(const RestPicture& picture) {
 
 void checkRests(const std::string& topic, const RestPicture& picture, Findings& findings) {
   if (!picture.known) {
-    findings.push_back({Severity::kRemark, topic, "no rest of 2 s or more: nothing tells biases and level at once",
+    findings.push_back({Severity::kRemark, topic,
+                        "no rest of 2 s or more: biases and level are not known from the start",
                         "stand for 30 s before driving, and for 3 s now and then; initialization.source: motion "
                         "starts without a rest"});
     return;

@@ -179,7 +179,7 @@ class FilterNodelet : public CoreNodelet {
   /// This nodelet was loaded anew: the steps from the initial state on are gone.
   void requestStart() {
     if (!lost_) {
-      NODELET_WARN("the mechanisation is ahead of this filter, which asks for a new start");
+      NODELET_WARN("the mechanization is ahead of this filter, which requests a new start");
     }
     lost_ = true;
     const auto message = boost::make_shared<std_msgs::UInt32>();
@@ -189,7 +189,7 @@ class FilterNodelet : public CoreNodelet {
 
   /// The mechanisation was loaded anew: its first steps are void, and it goes on from the filter's state.
   void restartMechanisation() {
-    NODELET_WARN("the mechanisation begins anew");
+    NODELET_WARN("the mechanization restarts");
     gate_.clear();
     look_ahead_.forgetSteps();
     wheel_time_.recount();
@@ -207,7 +207,7 @@ class FilterNodelet : public CoreNodelet {
       ++rejected_;
       wheels_watch_->refused(wheel_problem_, clocks());
       health_->note(wheel_input_->problem(), engine_->state().stamp);
-      NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s left out: %s", message->header.stamp.toSec(),
+      NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s rejected: %s", message->header.stamp.toSec(),
                             wheel_problem_.c_str());
     }
     if (!wheel_input_->remark().empty()) {
@@ -349,7 +349,7 @@ class FilterNodelet : public CoreNodelet {
       throw std::invalid_argument("there is no estimate yet");
     }
     takeCorrection(engine_->place(toPlacement(request, estimates_->frame(), engine_->state(), lever_imu_to_base_b_)));
-    response.message = "the estimate is put there";
+    response.message = "the estimate was moved";
   }
 
   void saveCheckpoint(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -361,8 +361,8 @@ class FilterNodelet : public CoreNodelet {
     using diagnostic_msgs::DiagnosticStatus;
     status.summary(has_steps_ && wheel_messages_ > 0 ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    !started_             ? "waiting for the initial state"
-                   : lost_               ? "loaded anew, waiting for a new start"
-                   : !has_steps_         ? "waiting for the mechanisation"
+                   : lost_               ? "reloaded, waiting for a new start"
+                   : !has_steps_         ? "waiting for the mechanization"
                    : wheel_messages_ > 0 ? "running"
                                          : "no wheel samples");
     diagnoseInputs(status);
@@ -391,9 +391,9 @@ class FilterNodelet : public CoreNodelet {
     if (!failure.empty()) {
       status.summary(DiagnosticStatus::ERROR, failure);
     } else if (!wheel_problem_.empty()) {
-      status.mergeSummary(DiagnosticStatus::WARN, "wheel message left out: " + wheel_problem_);
+      status.mergeSummary(DiagnosticStatus::WARN, "wheel message rejected: " + wheel_problem_);
     } else if (has_steps_ && steps_watch_.isSilent(clocks())) {
-      status.summary(DiagnosticStatus::STALE, "the mechanisation is silent");
+      status.summary(DiagnosticStatus::STALE, "the mechanization is silent");
     }
   }
 

@@ -124,7 +124,7 @@ class InitializerNodelet : public CoreNodelet {
     done_ = true;
     const InitialState state = fromMessage(*running);
     resumption_->offer(state);
-    publishStart(state, running, "went on with the estimate that was running");
+    publishStart(state, running, "continued with the running estimate");
   }
 
   /// The filter was loaded anew.
@@ -149,7 +149,7 @@ class InitializerNodelet : public CoreNodelet {
       const InitialState initial = resumption_->resume(stamp);
       done_ = true;
       const double unwatched_s = std::round(10.0 * resumption_->unwatched()) / 10.0;
-      announce(initial, "resumed " + formatNumber(unwatched_s) + " s after the last state known");
+      announce(initial, "resumed " + formatNumber(unwatched_s) + " s after the last known state");
     } catch (const std::invalid_argument& error) {
       NODELET_WARN("a new start: %s", error.what());
     }
@@ -326,7 +326,7 @@ class InitializerNodelet : public CoreNodelet {
     report->heading_deg = radToDeg(eulerFrom_q_b_to_n(initial.nav.q_b_to_n).z());
     report->heading_std_deg = radToDeg(std::sqrt(initial.P(kAttitude + 2, kAttitude + 2)));
     progress_publisher_.publish(report);
-    NODELET_INFO("initialisation at %.3f s: %s; origin %.7f deg, %.7f deg, %.2f m, heading %.2f deg (1 sigma %.2f deg)",
+    NODELET_INFO("initialization at %.3f s: %s; origin %.7f deg, %.7f deg, %.2f m, heading %.2f deg (1 sigma %.2f deg)",
                  report->header.stamp.toSec(), how.c_str(), report->latitude_deg, report->longitude_deg,
                  report->height_m, report->heading_deg, report->heading_std_deg);
   }
@@ -341,7 +341,7 @@ class InitializerNodelet : public CoreNodelet {
     report->header.frame_id = frames_.map;
     report->progress = progress_;
     progress_publisher_.publish(report);
-    NODELET_INFO("initialisation: %s", progress_.c_str());
+    NODELET_INFO("initialization: %s", progress_.c_str());
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {

@@ -98,7 +98,7 @@ class InsNodelet : public CoreNodelet {
     ImuVerdict verdict = engine_->push(sample);
     health_->noteImu(sample.stamp, verdict);
     if (verdict == ImuVerdict::kTimeWentBack) {
-      NODELET_WARN("the clock of the IMU has begun again: a new start");
+      NODELET_WARN("the clock of the IMU has restarted: a new start");
       engine_->reset();
       ++session_;
       verdict = engine_->push(sample);
@@ -110,7 +110,7 @@ class InsNodelet : public CoreNodelet {
     } else {
       ++rejected_;
       watch_.refused(complaintOf(verdict), clocks());
-      NODELET_WARN_THROTTLE(1.0, "IMU sample at %.3f s left out: %s", toSeconds(sample.stamp), complaintOf(verdict));
+      NODELET_WARN_THROTTLE(1.0, "IMU sample at %.3f s rejected: %s", toSeconds(sample.stamp), complaintOf(verdict));
     }
   }
 
@@ -158,7 +158,7 @@ class InsNodelet : public CoreNodelet {
     if (message->corrects) {
       const Correction correction = fromMessage(*message);
       if (!engine_->correct(correction)) {
-        NODELET_WARN("going on from the filter's state at %.3f s", toSeconds(correction.state.stamp));
+        NODELET_WARN("resuming from the filter's state at %.3f s", toSeconds(correction.state.stamp));
         engine_->adopt(correction);
       }
       last_step_ = toNanoseconds(message->state.stamp);
@@ -205,7 +205,7 @@ class InsNodelet : public CoreNodelet {
     const double span_s = engine_ ? toSeconds(engine_->newestStamp() - diagnosed_stamp_) : 0.0;
     const double rate_hz = span_s > 0.0 ? static_cast<double>(samples_ - diagnosed_samples_) / span_s : 0.0;
     const bool running = engine_ && engine_->isInitialised();
-    status.summary(running ? DiagnosticStatus::OK : DiagnosticStatus::WARN, running ? "mechanising"
+    status.summary(running ? DiagnosticStatus::OK : DiagnosticStatus::WARN, running ? "mechanizing"
                                                                             : samples_ > 0
                                                                                 ? "waiting for the initial state"
                                                                                 : "no IMU samples");
@@ -218,7 +218,7 @@ class InsNodelet : public CoreNodelet {
     status.add("gaps", gaps_);
     status.add("rejected samples", rejected_);
     status.add("samples with a wrong stamp", jumps_.leftOut());
-    status.add("samples put back into order", sorter_.overtaken());
+    status.add("samples put back in order", sorter_.overtaken());
     status.add("restarts", session_);
     if (health_) {
       alarms_.add(*health_, now(), status);
@@ -230,7 +230,7 @@ class InsNodelet : public CoreNodelet {
   /// With this there is nothing to navigate by.
   std::string failureOfImu() const {
     const std::string problem = watch_.problem(imu_topic_, clocks());
-    return problem.empty() && engine_ && engine_->isImuFrozen() ? "the IMU repeats the very same values" : problem;
+    return problem.empty() && engine_ && engine_->isImuFrozen() ? "the IMU repeats exactly the same values" : problem;
   }
 
   std::optional<ImuInput> imu_input_;

@@ -78,7 +78,7 @@ class LegacyBridgeNodelet : public CoreNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
     const bool silent = watch_.isSilent(clocks());
-    status.summary(silent ? DiagnosticStatus::STALE : DiagnosticStatus::OK, silent        ? "no estimates any more"
+    status.summary(silent ? DiagnosticStatus::STALE : DiagnosticStatus::OK, silent        ? "estimates have stopped"
                                                                             : states_ > 0 ? "translating"
                                                                                           : "waiting for estimates");
     status.add("estimates", states_);

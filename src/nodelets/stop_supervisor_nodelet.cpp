@@ -164,7 +164,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     const VelocityCommand in = toVelocityCommand(*message);
     if (!in.isFinite()) {
       ++refused_commands_;
-      NODELET_WARN_THROTTLE(1.0, "a command that is not finite is refused: the rover is told to stop");
+      NODELET_WARN_THROTTLE(1.0, "a command that is not finite is rejected: the rover is told to stop");
     }
     outputs_.command(supervisor_->command(in));
   }
@@ -297,7 +297,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     diagnostics.add("state", name(status.state));
     diagnostics.add("stops", status.stops);
     diagnostics.add("stops given up", status.refusals);
-    diagnostics.add("refused commands", refused_commands_);
+    diagnostics.add("rejected commands", refused_commands_);
     diagnostics.add("emergency stop is kept in", keeper_->file());
   }
 
@@ -308,7 +308,7 @@ class StopSupervisorNodelet : public CoreNodelet {
       return "emergency stop without effect: " + reach_;
     }
     if (obedience_.isIgnored()) {
-      return "the rover drives on although it is told to stop";
+      return "the rover keeps driving although it is told to stop";
     }
     if (!keeper_->problem().empty()) {
       return "emergency stop and override are not kept: " + keeper_->problem();

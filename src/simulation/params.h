@@ -30,7 +30,7 @@ struct GroundChangeParams {
   double slip_offset = 0.0;     ///< added to the persistent slip
   double slip_variation = 1.0;  ///< factor on the correlated slip and on the scatter of the wheels
   double tilt_deg = 0.0;        ///< slope of the whole plane, the start included, uphill in the direction of the start
-  double patch_slip = 0.0;      ///< slip on top in soft patches
+  double patch_slip = 0.0;      ///< additional slip in soft patches
   double patch_length_m = 3.0;  ///< mean length of a patch
   double patch_spacing_m = 10.0;  ///< mean length of the firm ground between two
   double track_factor = 0.0;      ///< scrub; 0: the terrain's own
@@ -140,7 +140,7 @@ struct DriveParams {
   double speed_mps = 0.8;
   double initial_rest_s = 30.0;
   double initial_straight_m = 12.0;
-  double distance_m = 150.0;  ///< driven after the initialisation
+  double distance_m = 150.0;  ///< driven after the initialization
   double final_rest_s = 5.0;
   std::string route = "winding";  ///< or "circle", "straight"
   double circle_radius_m = 5.0;

@@ -28,9 +28,9 @@ constexpr double kWorseFactor = 2.0;
 constexpr double kLeastError_m = 0.1;  // below this an error is none worth comparing
 
 CommandLine commandLine() {
-  CommandLine command_line("faults", "Injects faults into a simulated drive and prints what becomes of the estimate.");
-  command_line.option("distance", "M", "metres to drive after the initialisation", "100")
-      .option("seed", "N", "makes the drive, and chooses the pairs", "1")
+  CommandLine command_line("faults", "Injects faults into a simulated drive and prints their effect on the estimate.");
+  command_line.option("distance", "M", "meters to drive after the initialization", "100")
+      .option("seed", "N", "seed of the drive and of the choice of pairs", "1")
       .option("pairs", "N", "how many random pairs of faults to try as well", "20")
       .option("only", "TEXT", "only faults with this in their name")
       .option("out", "DIR", "where the recordings go", "out/faults");

@@ -45,10 +45,10 @@ constexpr double kMargin_s = 1.0;     // of recording, after the last estimate t
 constexpr double kRates[] = {50.0, 100.0, 1000.0};
 
 CommandLine commandLine() {
-  CommandLine command_line("load", "Plays a recording through the running nodelets and says what that costs.");
-  command_line.positional("BAG", "recording of ROS 1")
+  CommandLine command_line("load", "Plays a recording through the running nodelets and measures the cost.");
+  command_line.positional("BAG", "ROS 1 recording")
       .option("seconds", "S", "how long to watch in real time", "60")
-      .option("out", "FILE", "where the table goes as well")
+      .option("out", "FILE", "file to write the table to as well")
       .option("manager", "NODE", "the nodelets' manager", "slipnav_manager")
       .option("tree", "NAME", "parameter tree of the configuration", "slipnav");
   return command_line;

@@ -17,7 +17,7 @@ using slipnav::RtklibSolution;
 CommandLine commandLine() {
   CommandLine command_line("positions", "Prints the solutions of an RTKLIB file: UNIX time, position, covariance.");
   command_line.positional("FILE", "RTKLIB solution (.pos)")
-      .flag("truth", "leave out rows that are far off the rows about them, as evaluate does with truth");
+      .flag("truth", "skip rows far off their neighbors, as evaluate does with truth");
   return command_line;
 }
 
@@ -48,7 +48,7 @@ std::vector<RtklibSolution> withoutOutliers(const std::vector<RtklibSolution>& s
     if (kept.count(solution.fix.stamp) > 0) {
       believed.push_back(solution);
     } else {
-      ++left_out["rows far off the rows about them"];
+      ++left_out["rows far off their neighbors"];
     }
   }
   return believed;

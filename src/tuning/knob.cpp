@@ -97,8 +97,7 @@ std::vector<Knob> knobsWith(const std::vector<std::string>& keys, const std::vec
   }
   for (const std::string& key : keys) {
     if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw std::invalid_argument("'" + key + "' is nothing that is tuned, did you mean '" + nearestName(key, known) +
-                                  "'?");
+      throw std::invalid_argument("'" + key + "' cannot be tuned, did you mean '" + nearestName(key, known) + "'?");
     }
   }
   return chosen;

@@ -13,7 +13,7 @@
 namespace slipnav {
 namespace {
 
-constexpr const char* kWords = "use_sim_time is set, and nobody publishes /clock";
+constexpr const char* kWords = "use_sim_time is set, but nobody publishes /clock";
 
 class MissingClock : public ::testing::Test {
  protected:

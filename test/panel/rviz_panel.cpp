@@ -177,7 +177,7 @@ class RvizPanel : public ::testing::Test {
     StopStatus stop;
     stop.mode = StopStatus::MODE_ACTIVE;
     stop.time_left_s = 34.0;
-    stop.reason = "the position error comes to its threshold";
+    stop.reason = "the position error reaches its threshold";
     return stop;
   }
   static ErrorForecast makeForecast() {

@@ -452,7 +452,7 @@ class RtklibTest(ImportTestCase):
         self.assert_close(fix.position_covariance, [4e-4, -1e-4, 0, -1e-4, 1e-4, 0, 0, 0, 9e-4])
         self.assertEqual([message.status.status for _, message in fixes[:3]], [2, 2, 0])
         self.assertIn("X.POS: rows of quality 0, without a solution: 1 left out", self.said)
-        self.assertIn("X.POS: rows far off the rows about them: 1 left out", self.said)
+        self.assertIn("X.POS: rows far off their neighbors: 1 left out", self.said)
         fixes = self.imported("--imu", "imu.csv", "--gps", "X.POS")["/gps/fix"]
         self.assertEqual(len(fixes), 11)  # the filter judges its fixes itself
 
@@ -564,7 +564,7 @@ class DriveTest(ImportTestCase):
         self.export_all()
         self.write("truth.pos", self.pos_text())
         self.import_all("--truth", "truth.pos")
-        self.assertIn("truth.pos: rows far off the rows about them: 1 left out", self.said)
+        self.assertIn("truth.pos: rows far off their neighbors: 1 left out", self.said)
         self.assert_same(self.evaluated(self.out), self.evaluated(self.drive, "--truth", self.path("truth.pos")))
 
     def pos_text(self):

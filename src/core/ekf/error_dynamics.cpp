@@ -68,7 +68,7 @@ void VehicleModelParams::visit(ParameterVisitor& v) {
   v.number("slope_slip", slope_slip, {0.0, 1.0},
            "1σ of the persistent slip, and of the tangent of the side slip, per sine of the slope");
   v.number("fast_slip_std", fast_slip_std, {0.0, 1.0},
-           "1σ of the slip ratio that changes within a meter; more is learned, never less");
+           "1σ of the slip ratio that changes within a meter; larger values are learned, never smaller ones");
   v.number("fast_slip_length_m", fast_slip_length_m, {1e-2, 1e5}, "correlation length of the fast slip [m]");
   v.number("side_slip_std_deg", side_slip_std_deg, {0.0, 45.0},
            "1σ of the side-slip angle, before anything is learned [°]");

@@ -31,9 +31,9 @@ constexpr double kLargestRestSpeed_mps = 0.005;
 
 void StationaryParams::visit(ParameterVisitor& v) {
   v.number("window_s", window_s, {0.02, 2.0}, "length of the IMU's test window [s]");
-  v.number("hold_off_s", hold_off_s, {0.0, 10.0}, "how long the wheels must have rested before it counts [s]");
+  v.number("hold_off_s", hold_off_s, {0.0, 10.0}, "how long the wheels must have been at rest [s]");
   v.number("wheel_speed_mps", wheel_speed_mps, {0.0, 1.0},
-           "highest circumferential speed of a wheel at rest, unless its noise is learned to be larger [m/s]");
+           "highest circumferential speed of a wheel at rest, unless larger noise is learned [m/s]");
   v.number("accel_std_mps2", accel_std_mps2, {1e-6, 10.0},
            "largest scatter of the specific force at rest, 1σ of each axis, before it is learned [m/s²]");
   v.number("gyro_std_deg_per_s", gyro_std_deg_per_s, {1e-6, 100.0}, "likewise of the angular rate [°/s]");

@@ -57,7 +57,7 @@ void SlipModelParameters::visit(ParameterVisitor& v) {
   v.choice("inference", inference, {"dense", "state_space"},
            "dense: exact, cost cubic in samples; state_space: linear cost, exact but for the RBF");
   v.integer("min_samples", min_samples, {3.0, 10000.0}, "usable slip samples that a window must have");
-  v.number("slip_floor", slip_floor, {1e-9, 0.1}, "slip that varies by less than this is taken as constant");
+  v.number("slip_floor", slip_floor, {1e-9, 0.1}, "slip that varies by less than this is treated as constant");
   v.integer("max_evaluations", max_evaluations, {1.0, 10000.0}, "evaluations of the likelihood in one local fit");
   v.number("tolerance", tolerance, {1e-9, 1.0}, "change of the log posterior at which a fit ends");
   v.group("prior", prior, "priors of the hyperparameters, relative to the scale of the window");

@@ -204,11 +204,11 @@ std::string describeLag(double lag_s) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::fixed << std::setprecision(1) << "gps/fix is stamped " << std::abs(lag_s) << " s too "
-       << (lag_s > 0.0 ? "early" : "late") << " against wheels and gyro";
+       << (lag_s > 0.0 ? "early" : "late") << " relative to wheels and gyro";
   if (std::abs(std::abs(lag_s) - kLeapSeconds) < 1.0) {
     text << " (18 s: GPS time instead of UTC?)";
   }
-  text << ": mend the clock of the receiver's driver, or set initialization.fix_stamp_offset_s";
+  text << ": fix the clock of the receiver's driver, or set initialization.fix_stamp_offset_s";
   return text.str();
 }
 

@@ -96,10 +96,10 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
   noteDirection(filter.state());
   noteRejections(filter);
   if (filter.recoveries() != std::exchange(recoveries_, filter.recoveries())) {
-    note("faster than any slip explains: velocity and level begun anew from wheels and gravity", now);
+    note("faster than any slip explains: velocity and tilt restarted from wheels and gravity", now);
   }
   if (filter.isStuck()) {
-    note("stuck: the wheels turn and the rover stands", now);
+    note("stuck: the wheels turn but the rover does not move", now);
   }
   for (std::size_t i = 0; i < wheel_names_.size(); ++i) {
     if (filter.wheelMonitor().isFaulty(i)) {

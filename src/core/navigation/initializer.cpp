@@ -54,16 +54,17 @@ void InitializationParams::visit(ParameterVisitor& v) {
   v.number("longitude_deg", longitude_deg, {-180.0, 180.0}, "likewise [°]");
   v.number("height_m", height_m, {-20000.0, 50000.0}, "likewise, above the ellipsoid [m]");
   v.number("position_std_m", position_std_m, {0.0, 1e6}, "1σ of a given start position on each axis [m]");
-  v.number("min_rest_s", min_rest_s, {0.5, 3600.0}, "shortest standstill that serves for levelling [s]");
-  v.number("max_rest_s", max_rest_s, {1.0, 3600.0}, "what is remembered of a longer one [s]");
+  v.number("min_rest_s", min_rest_s, {0.5, 3600.0}, "shortest standstill used for leveling [s]");
+  v.number("max_rest_s", max_rest_s, {1.0, 3600.0}, "how much of a longer one is kept [s]");
   v.number("drive_distance_m", drive_distance_m, {1.0, 1000.0}, "length of the drive that gives the heading [m]");
   v.number("levelling_window_s", levelling_window_s, {0.5, 600.0},
-           "length of the window for levelling without a standstill [s]");
-  v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0}, "1σ of roll and pitch levelled on the move [°]");
+           "length of the window for leveling without a standstill [s]");
+  v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0},
+           "1σ of roll and pitch after leveling on the move [°]");
   v.number("moving_speed_std_mps", moving_speed_std_mps, {1e-3, 10.0},
            "1σ of the velocity when starting on the move [m/s]");
   v.number("fix_stamp_offset_s", fix_stamp_offset_s, {-3600.0, 3600.0},
-           "added to the stamps of gps/fix and gps/velocity, for a receiver in another time [s]");
+           "added to the stamps of gps/fix and gps/velocity, for a receiver with another time scale [s]");
   v.numbers("gyro_bias_deg_per_h", gyro_bias_deg_per_h, {-1e6, 1e6},
             "mean of the gyro bias at switch-on, body axes forward, right, down [°/h]");
   v.numbers("accel_bias_ug", accel_bias_ug, {-1e6, 1e6},
@@ -138,7 +139,7 @@ std::string Initializer::progress() const {
     return complaint();
   }
   if (params_.source != "gnss") {
-    return recording_.imu().empty() ? "waiting for imu/data" : "levelling";
+    return recording_.imu().empty() ? "waiting for imu/data" : "leveling";
   }
   if (!recording_.restIsLongEnough()) {
     return "waiting for a standstill of " + std::to_string(static_cast<int>(std::ceil(params_.min_rest_s))) + " s";

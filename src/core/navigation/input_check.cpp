@@ -43,21 +43,20 @@ std::string complaintOfForce(double length_mps2, double gravity_mps2) {
   const std::string measured =
       "the mean specific force is " + number(length_mps2) + " where gravity is " + number(gravity_mps2) + " m/s^2: ";
   if (isAbout(length_mps2, gravity_mps2 / kStandardGravity_mps2)) {
-    return measured + "in g? the driver has to give m/s^2";
+    return measured + "in g? the driver must publish m/s^2";
   }
   if (length_mps2 < kNoGravity * gravity_mps2) {
-    return measured + "gravity taken out? choose the topic of the driver that has it, or switch that off";
+    return measured + "gravity taken out? use the driver's topic that includes it, or switch that off";
   }
-  return measured + "another unit, or another planet? the driver has to give m/s^2, see planet";
+  return measured + "another unit, or another planet? the driver must publish m/s^2, see planet";
 }
 
 std::string complaintOfRateUnit(const std::string& than_what) {
-  return "the gyros turn " + than_what + ": in deg/s? the driver has to give rad/s";
+  return "the gyros turn " + than_what + ": in deg/s? the driver must publish rad/s";
 }
 
 std::string complaintOfDirection(bool has_sign) {
-  return std::string("wheels and IMU disagree on the direction: ") +
-         (has_sign ? "" : "the wheels' speed has no sign, ") +
+  return std::string("wheels and IMU disagree on the direction: ") + (has_sign ? "" : "the wheel speed has no sign, ") +
          "wheels[].sign is wrong, or imu.mount is turned by 180 deg about z";
 }
 
@@ -115,8 +114,8 @@ void InputCheck::judgeForce(const Vector3& mean_force) {
   force_complaint_ = complaintOfForce(length, gravity_mps2_);
   if (right && -mean_force.z() < kLeastUpward * length) {
     force_complaint_ =
-        "the specific force does not point up: imu.mount does not say how the sensor is turned, or the "
-        "driver gives gravity upside down; a level sensor at rest says +9.8 m/s^2 on the axis that "
+        "the specific force does not point up: imu.mount does not match the sensor, or the "
+        "driver publishes gravity with the wrong sign; a level sensor at rest reads +9.8 m/s^2 on the axis that "
         "points up";
   }
 }
@@ -163,7 +162,7 @@ void InputCheck::judgeTurns() {
   } else if (ratio < kOppositeTurn) {
     rate_complaint_ =
         "gyros and wheels turn in opposite directions: imu.mount is upside down, the gyro's axes are not "
-        "those of the accelerometer, or left and right wheels are exchanged";
+        "those of the accelerometer, or left and right wheels are swapped";
   }
   wheels_turned_rad_ = wheels_squared_ = gyro_by_wheels_ = 0.0;
 }

@@ -127,7 +127,7 @@ std::string StopSupervisor::stopNow() {
   if (obstacle() != nullptr) {
     return obstacle();
   }
-  requestStop("the operator wants a stop");
+  requestStop("the operator requests a stop");
   advance();
   return "";
 }
@@ -219,7 +219,7 @@ const char* StopSupervisor::whyNoPlan() const {
   if (!forecast_ || forecast_->stamp < driving_since_) {
     return "no forecast since the last stop";
   }
-  return forecast_->time_to_stop_s < kFarthestStop_s ? nullptr : "no stop within the horizon of the forecast";
+  return forecast_->time_to_stop_s < kFarthestStop_s ? nullptr : "no stop within the forecast horizon";
 }
 
 std::optional<StopSupervisor::Plan> StopSupervisor::plan() const {
@@ -229,7 +229,7 @@ std::optional<StopSupervisor::Plan> StopSupervisor::plan() const {
   if (status_.forecasts_stale) {
     return Plan{driving_since_ + fromSeconds(params_.fallback_interval_s), "no new forecast: periodic stop"};
   }
-  return Plan{forecast_->stamp + fromSeconds(forecast_->time_to_stop_s), "the position error comes to its threshold"};
+  return Plan{forecast_->stamp + fromSeconds(forecast_->time_to_stop_s), "the position error reaches its threshold"};
 }
 
 /// From the present speed to rest; a stop begins so much earlier.
@@ -281,7 +281,7 @@ void StopSupervisor::considerHold() {
       ++status_.stops;
     }
   } else if (standstill_.unacceptedRest_s() >= params_.slide_after_s) {
-    giveUp("the rover slides: its wheels stand, but it does not");
+    giveUp("the rover slides: its wheels are at rest, but it is not");
   } else if (mode_ == StopMode::kActive && toSeconds(clock_ - requested_) >= params_.max_stop_s) {
     giveUp("the rover does not come to rest within " + seconds(params_.max_stop_s));
   }
@@ -295,11 +295,11 @@ void StopSupervisor::considerRelease() {
   } else if (held_s >= params_.max_hold_s) {
     release("held for " + seconds(held_s));
   } else if (!standstill_.isStanding() && mode_ == StopMode::kAdvise) {
-    release("driven on before the velocity had converged");
+    release("resumed before the velocity had converged");
   } else if (!standstill_.isStanding()) {
     status_.state = StopState::kStopping;
     status_.time_left_s = 0.0;
-    status_.reason = "the standstill is not accepted any more";
+    status_.reason = "the standstill is no longer accepted";
   }
 }
 

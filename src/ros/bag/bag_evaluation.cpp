@@ -33,7 +33,7 @@ void addTruthFrom(const std::string& path, Nanoseconds begin, OfflineRun& run, B
     if (solution.solved()) {
       run.addTruthFix(solution.fix);
     } else {
-      Alarm& rows = evaluation.problems[path + " has rows " + solution.flaw + ": left out"];
+      Alarm& rows = evaluation.problems[path + " has rows " + solution.flaw + ": skipped"];
       rows.first = rows.last = begin;
       ++rows.count;
     }
@@ -93,7 +93,7 @@ void push(const Sample& sample, SampleMerger& merger, HealthMonitor& health) {
 void noteTruthLeftOut(BagEvaluation& evaluation) {
   if (evaluation.report.metrics.truth_left_out > 0) {
     const Nanoseconds begin = evaluation.begin;
-    evaluation.problems["truth rows far off the rows about them: left out"] = {
+    evaluation.problems["truth rows far off their neighbors: rejected"] = {
         begin, begin, static_cast<std::uint64_t>(evaluation.report.metrics.truth_left_out)};
   }
 }

@@ -104,13 +104,13 @@ void BagFile::readAll() {
     }
   }
   if (!std::equal(beginning.begin(), beginning.end(), first_line.begin())) {
-    throw BagDamage("it is of another format than 2.0");
+    throw BagDamage("its format is not 2.0");
   }
   const BagFields header = file_.takeFields();
   header.require(BagOp::kFileHeader);
   const auto index_place = header.number<std::uint64_t>("index_pos");
   if (index_place == 0) {
-    fail("has no index, the recording was cut off; rosbag reindex may mend it");
+    fail("has no index, the recording was cut off; rosbag reindex may repair it");
   }
   if (!header.text("encryptor").empty()) {
     fail("is encrypted; rosbag decrypt makes a copy that can be read");

@@ -120,7 +120,7 @@ struct BagReader::Parts {
     const std::string type = typeOf(truth_topic);
     if (!type.empty() && type != typeName<sensor_msgs::NavSatFix>() && type != typeName<nav_msgs::Odometry>() &&
         type != typeName<geometry_msgs::PoseStamped>()) {
-      fail("topic '" + truth_topic + "' is of type " + type + ", which is no truth");
+      fail("topic '" + truth_topic + "' is of type " + type + ", which is not a truth type");
     }
   }
 
@@ -293,7 +293,7 @@ void BagReader::read(const BagSink& sink) const {
       const auto start = start_wanted ? parts_->truthStart(entry) : std::nullopt;
       if (start) {
         if (!start->second) {
-          sink.problem("the truth has no attitude to start from: initialization.heading_deg is taken (" +
+          sink.problem("the truth has no attitude to start from: initialization.heading_deg is used (" +
                            formatNumber(parts_->config.initialization.heading_deg) + " deg, 1 sigma " +
                            formatNumber(parts_->config.initialization.heading_std_deg) + " deg)",
                        entry.time);

@@ -183,7 +183,7 @@ std::vector<Fault> timeFaults() {
 }
 
 Fault gpsOutage(const std::string& topic) {
-  Fault fault{"GPS outage at initialisation, 10 s", [topic](Recording& recording, const FaultTimes& times) {
+  Fault fault{"GPS outage at initialization, 10 s", [topic](Recording& recording, const FaultTimes& times) {
                 dropMessages<NavSatFix>(topic, times.initialisation, 10.0, recording);
               }};
   fault.at_initialisation = true;

@@ -115,7 +115,7 @@ std::string complaintOf(const sensor_msgs::NavSatFix& message, const std::string
     return topic + " is at latitude 0, longitude 0 with a good status: the receiver has no fix yet";
   }
   if (isOutOfRange(message)) {
-    return topic + " has a latitude or longitude that is out of range: degrees are wanted";
+    return topic + " has a latitude or longitude that is out of range: degrees are required";
   }
   return message.header.stamp.isZero() ? noStamps(topic) : "";
 }

@@ -116,11 +116,11 @@ std::string EnduranceWatch::verdict() {
   table.add("driven [h]", last.driven_h);
   table.add("stops", last.stops);
   table.addAtMost("longest interval between estimates [s]", longest_gap_s_, kLongestGap_s);
-  table.add("memory of the manager in the end [MB]", last.rss_kb / 1024.0);
+  table.add("memory of the manager at the end [MB]", last.rss_kb / 1024.0);
   table.addAtMost("its growth after the first 10 minutes [MB]", figures.memory_growth_mb, kMostGrowth_mb);
   addTrend("latency p50", figures.latency_p50_ms, table);
   addTrend("latency p99", figures.latency_p99_ms, table);
-  table.add("horizontal error in the end [m]", last.error.horizontal_m);
+  table.add("horizontal error at the end [m]", last.error.horizontal_m);
   table.add("3 sigma of it [m]", last.error.horizontal_3sigma_m);
   table.addAtLeast("minutes with the error within 3 sigma [%]", figures.covered_pct, kLeastCovered_pct);
   table.addAtMost("position NEES, mean", figures.nees_mean, kMostNees);

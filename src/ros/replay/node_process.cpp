@@ -51,7 +51,7 @@ ProcessUsage usageOf(pid_t process) {
     fields.push_back(word);
   }
   if (fields.size() <= kResidentPages) {
-    throw std::runtime_error("process " + std::to_string(process) + " is not there any more");
+    throw std::runtime_error("process " + std::to_string(process) + " is gone");
   }
   const auto number = [&fields](int field) { return std::stod(fields.at(static_cast<std::size_t>(field))); };
   ProcessUsage usage;

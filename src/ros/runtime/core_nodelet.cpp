@@ -91,7 +91,7 @@ std::size_t CoreNodelet::publishersOf(const std::string& topic) const {
 void CoreNodelet::diagnoseClock(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const bool still = clock_watch_.standsStill(ros::Time::isSimTime(), ros::Time::now().toSec());
   if (still && endsOf("/clock").publishers.empty()) {
-    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, "use_sim_time is set, and nobody publishes /clock");
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, "use_sim_time is set, but nobody publishes /clock");
   }
 }
 

@@ -43,14 +43,14 @@ FitToDrive::Verdict FitToDrive::verdict(double now_s) const {
   std::vector<std::tuple<int, std::string, int>> problems;
   for (const auto& [nodelet, heard] : nodelets_) {
     if (now_s - heard.time_s > kLifetime_s) {
-      problems.emplace_back(-severityOf(DiagnosticStatus::ERROR), nodelet + " says nothing any more",
+      problems.emplace_back(-severityOf(DiagnosticStatus::ERROR), nodelet + " has stopped reporting",
                             DiagnosticStatus::ERROR);
     } else if (heard.level != DiagnosticStatus::OK) {
       problems.emplace_back(-severityOf(heard.level), nodelet + ": " + heard.message, heard.level);
     }
   }
   if (nodelets_.empty()) {
-    return {DiagnosticStatus::WARN, "no nodelet has said anything yet"};
+    return {DiagnosticStatus::WARN, "no nodelet has reported yet"};
   }
   if (problems.empty()) {
     return {DiagnosticStatus::OK, kFitToDrive};

@@ -107,7 +107,7 @@ void OperatorView::addAlarms(double now_s, OperatorPicture& picture) const {
       continue;  // says the same once more
     }
     if (now_s - heard.time_s > kStatusLifetime_s) {
-      picture.alarms.push_back({diagnostic_msgs::DiagnosticStatus::STALE, who + ": says nothing any more"});
+      picture.alarms.push_back({diagnostic_msgs::DiagnosticStatus::STALE, who + ": has stopped reporting"});
     } else if (heard.message.level != diagnostic_msgs::DiagnosticStatus::OK) {
       picture.alarms.push_back({heard.message.level, who + ": " + heard.message.message});
     }
@@ -130,7 +130,7 @@ OperatorPicture OperatorView::picture(double now_s) const {
     picture.reason = start_->message.progress;
   } else if (picture.isStale()) {
     picture.state = "NO DATA";
-    picture.reason = stop_ ? "nothing has come from the stop supervisor lately" : "waiting for the stop supervisor";
+    picture.reason = stop_ ? "nothing received from the stop supervisor lately" : "waiting for the stop supervisor";
   }
   if (isFresh(slip_, now_s, kLifetime_s)) {
     const double slip = slip_->message.mean_ratio;

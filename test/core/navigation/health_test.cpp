@@ -17,7 +17,7 @@ TEST(HealthMonitor, NamesWhatIsWrongWithTheImu) {
   health.noteImu(12 * kSecond, ImuVerdict::kStuck);
   health.noteImu(13 * kSecond, ImuVerdict::kStuck);
   ASSERT_EQ(health.alarms().size(), 2U);
-  const Alarm& stuck = health.alarms().at("IMU sample an axis does not change any more");
+  const Alarm& stuck = health.alarms().at("IMU sample with a stuck axis");
   EXPECT_EQ(stuck.first, 12 * kSecond);
   EXPECT_EQ(stuck.last, 13 * kSecond);
   EXPECT_EQ(stuck.count, 2U);

@@ -72,7 +72,7 @@ TEST_F(BagPoses, ATopicThatIsNotThereIsNamed) {
 TEST_F(BagPoses, ATopicWithoutPosesIsNamed) {
   EXPECT_NE(messageOf<std::invalid_argument>([&] {
               readPoses({bag_.path()}, "/words");
-            }).find("'/words' is of type std_msgs/String, which is none of nav_msgs/Odometry"),
+            }).find("'/words' is of type std_msgs/String, which is not one of nav_msgs/Odometry"),
             std::string::npos);
 }
 

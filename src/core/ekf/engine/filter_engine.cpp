@@ -124,7 +124,7 @@ Correction FilterEngine::place(const Placement& placement) {
                         std::isfinite(placement.heading_rad.value_or(0.0)) &&
                         (!placement.heading_rad || placement.heading_std_rad > 0.0);
   if (!possible) {
-    throw std::invalid_argument("the place is not one on this planet, or a standard deviation is not above 0");
+    throw std::invalid_argument("the position is not on this planet, or a standard deviation is not above 0");
   }
   if (!initialised_ || next_sequence_ == 0) {
     throw std::invalid_argument("there is no estimate yet");
