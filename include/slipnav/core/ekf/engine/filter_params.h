@@ -1,5 +1,5 @@
 #pragma once
-/// Everything the filter is made from.
+/// Everything the filter is configured with.
 
 #include <string>
 #include <vector>
