@@ -26,7 +26,7 @@ Matrix3 transportRateByVelocity(double north_m, double east_m, double latitude_r
   return m;
 }
 
-/// ∂(ω_en^n)/∂(position in metres NED). The curvature's own change with latitude is below 1e-2 of these terms.
+/// ∂(ω_en^n)/∂(position in meters NED). The curvature's own change with latitude is below 1e-2 of these terms.
 Matrix3 transportRateByPosition(double north_m, double east_m, double latitude_rad, const Vector3& v) {
   const double tan_lat = std::tan(latitude_rad);
   Matrix3 m = Matrix3::Zero();
@@ -118,7 +118,7 @@ void ErrorDynamics::rollOver(const GroundStep& ground, ErrorTransition& transiti
   const auto gaussMarkov = [&](int state, double variance, double length_m) {
     const double decay = std::exp(-ground.way_m / length_m);
     transition.decay(state - 9) = decay;
-    // half of the noise goes in before the decay, see propagate(): this keeps σ² in steady state for any step
+    // half of the noise is added before the decay, see propagate(): this keeps σ² in steady state for any step
     transition.noise(state) = 2.0 * variance * (1.0 - decay * decay) / (1.0 + decay * decay);
   };
   gaussMarkov(kSlowSlip, ground.slow_slip_variance, vehicle_.slow_slip_length_m);

@@ -14,7 +14,7 @@ double slope(double speed_mps, double slip) {
   return slip >= 0.0 ? speed_mps / ((1.0 - slip) * (1.0 - slip)) : speed_mps;
 }
 
-// Narrower than this the difference quotient of the points loses digits.
+// For a narrower spread the difference quotient of the points loses precision.
 constexpr double kMinSpread = 1e-6;
 
 }  // namespace

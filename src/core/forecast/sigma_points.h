@@ -14,11 +14,11 @@
 
 namespace slipnav {
 
-/// Whose equations hold.
+/// Which equations apply.
 enum class SigmaPointForm {
   /// Points μ, μ ± cσ with weights 1 − 1/c², 1/(2c²), 1/(2c²): exact on a linear map; variance in (m/s)².
   kUnscented,
-  /// The paper's equations to the letter: points v/(1 − μ) and v/(1 − μ ± σ²) (it calls the variance σ_s), equal
+  /// The paper's equations literally: points v/(1 − μ) and v/(1 − μ ± σ²) (it calls the variance σ_s), equal
   /// weights, the mean squared spread called σ_χ and squared again: "variance" in (m/s)⁴. For comparison only.
   kPaper,
 };
@@ -35,16 +35,16 @@ struct SigmaPointParameters {
 /// rω for one slip ratio in [−1, 1) [m/s].
 double wheelSpeedFromSlip(double speed_mps, double slip);
 
-/// Circumferential speed of the wheels at the slip predicted.
+/// Circumferential speed of the wheels at the predicted slip.
 struct WheelSpeedPrediction {
   double mean_mps = 0.0;
   double variance = 0.0;  ///< (m/s)² for the unscented form
-  /// Change of wheel speed per unit of slip, from the statistical linearisation Cov(χ, s)/Var(s) [m/s]; what couples a
-  /// slip error that persists to the wheel speed.
+  /// Change of wheel speed per unit of slip, from the statistical linearization Cov(χ, s)/Var(s) [m/s]; it couples a
+  /// persistent slip error to the wheel speed.
   double sensitivity_mps = 0.0;
 };
 
-/// Carries mean and deviation of slip through the relation above. Immutable.
+/// Maps mean and deviation of slip through the relation above. Immutable.
 class SigmaPoints {
  public:
   /// Throws std::invalid_argument naming a parameter that is out of range.

@@ -128,7 +128,7 @@ class Lines {
   std::map<std::string, std::string> values_;
 };
 
-/// The part that the checksum is of. Throws when it is not that of the file.
+/// The part covered by the checksum. Throws if the checksum does not match.
 std::string checkedBody(const std::string& text) {
   if (text.compare(0, std::char_traits<char>::length(kFormat), kFormat) != 0) {
     refuse("has another format or version");

@@ -12,22 +12,22 @@
 namespace slipnav {
 namespace {
 
-// Wide enough that what follows decides: the filter sees the same samples again and must not count them twice.
+// Wide enough that later measurements decide: the filter sees the same samples again and must not count them twice.
 constexpr double kLevelStd_rad = 2.0 * kPi / 180.0;
-// The course of the drive is the heading but for side slip and mounting, however well the fixes tell it.
+// The course of the drive is the heading except for side slip and mounting, however good the fixes are.
 constexpr double kLeastDriveHeadingStd_rad = 1.0 * kPi / 180.0;
 constexpr double kHeadingStdFactor = 3.0;
-// The drive goes on until its fixes tell the heading so well, or is taken as it is after so many times its usual
-// length.
+// The drive goes on until its fixes determine the heading this well, or is accepted as is after this many times its
+// usual length.
 constexpr double kHeadingGoal_rad = 2.0 * kPi / 180.0;
 constexpr double kLongestDrive = 5.0;
-// Way by fixes over way by wheels: a rover that is stuck, or fixes that wander, tell no heading.
+// Distance by fixes over distance by wheels: a stuck rover, or fixes that wander, give no heading.
 constexpr double kLeastScale = 0.5;
 constexpr double kLargestScale = 2.0;
 constexpr double kRestVelocityStd_mps = 0.05;
 constexpr double kFixStdFactor = 3.0;
 constexpr double kFixesSilent_s = 3.0;
-// An attitude or position that is called the truth still ends up in a matrix that has to be inverted.
+// An attitude or position that counts as truth still ends up in a matrix that has to be inverted.
 constexpr double kTruthAttitudeStd_rad = 1e-5;
 constexpr double kTruthVelocityStd_mps = 1e-3;
 
@@ -215,7 +215,7 @@ std::optional<InitialState> Initializer::fromDrive() const {
     return std::nullopt;
   }
   if (!clock_complaint_.empty() && recording_.rest().begin <= judged_fix_) {
-    return std::nullopt;  // on a straight line the lag would soon hide in the place of the start
+    return std::nullopt;  // on a straight line the lag would soon be absorbed by the start position
   }
   const std::optional<Nanoseconds> begin = recording_.windowBeginFrom(
       rested ? recording_.rest().begin : recording_.fixes().front().stamp, params_.levelling_window_s);
@@ -236,7 +236,7 @@ std::optional<InitialState> Initializer::fromDrive() const {
   return result;
 }
 
-/// Nothing as long as the drive does not tell the heading.
+/// Nothing as long as the drive does not determine the heading.
 std::optional<DriveFit> Initializer::fitOfDrive(Nanoseconds begin, Nanoseconds end, bool at_rest) const {
   const double bias_z = at_rest ? recording_.mean(recording_.rest().begin, recording_.rest().end).omega_ib_b.z()
                                 : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
@@ -329,7 +329,7 @@ void Initializer::levelOnTheMoveInto(Nanoseconds begin, Nanoseconds end, double 
 
 InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until) const {
   FilterSetup setup = setup_;
-  setup.gnss = FixParams();  // all fixes are there already
+  setup.gnss = FixParams();  // all fixes are already there
   Navigator navigator(planet_, imu_params_, setup);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   for (const PositionFix& fix : recording_.fixes()) {

@@ -14,11 +14,11 @@ constexpr double kLeastSamples = 10.0;
 /// Over a window a rover gains a few m/s at most; sensors are off by a few percent.
 constexpr double kForceTolerance = 0.25;
 constexpr double kStandardGravity_mps2 = 9.80665;
-/// Below this share of gravity, what is left is bias and tilt.
+/// Below this share of gravity, the rest is bias and tilt.
 constexpr double kNoGravity = 0.25;
 /// No rover stands on a slope of 60°.
 constexpr double kLeastUpward = 0.5;
-/// °/s for rad/s is a factor of 57; slip, scrub and noise make a few.
+/// °/s for rad/s is a factor of 57; slip, scrub and noise amount to a few.
 constexpr double kUnitFactor = 15.0;
 constexpr double kOppositeTurn = -0.3;
 constexpr double kLeastTurn_rad = 0.5;
@@ -108,7 +108,7 @@ void InputCheck::judgeForce(const Vector3& mean_force) {
   const double length = mean_force.norm();
   const bool right = isAbout(length, gravity_mps2_);
   if (!right && complained_force_mps2_ != 0.0) {
-    return;  // said already; on slopes what is left of gravity changes
+    return;  // already reported; on slopes the residual of gravity changes
   }
   complained_force_mps2_ = right ? 0.0 : length;
   force_complaint_ = complaintOfForce(length, gravity_mps2_);
@@ -120,7 +120,7 @@ void InputCheck::judgeForce(const Vector3& mean_force) {
   }
 }
 
-/// Between the middles of two windows the gyros have turned by half of what they turned in each.
+/// Between the midpoints of two windows the gyros have turned by half of what they turned in each.
 void InputCheck::judgeTilt(const Vector3& mean_force, const Vector3& turned) {
   if (last_force_.isZero() || !force_complaint_.empty()) {
     return;

@@ -6,7 +6,7 @@
 namespace slipnav {
 namespace {
 
-/// Far below the noise of any IMU, in SI units; a mounting by quarter turns leaves traces of the other axes.
+/// Far below the noise of any IMU, in SI units; a quarter-turn mounting leaves traces of the other axes.
 constexpr double kSame = 1e-9;
 
 }  // namespace

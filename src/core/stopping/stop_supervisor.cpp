@@ -8,7 +8,7 @@ namespace slipnav {
 namespace {
 
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
-/// A stop farther away than any forecast reaches is none; its stamp could overflow.
+/// A stop beyond the reach of any forecast does not count; its stamp could overflow.
 constexpr double kFarthestStop_s = 1e6;
 
 std::string seconds(double s) {
@@ -64,7 +64,7 @@ void StopSupervisor::observe(const RoverObservation& observation) {
     return;
   }
   has_estimates_ = true;
-  requested_ -= std::max<Nanoseconds>(0, clock_ - observation.stamp);  // what has passed without estimates counts
+  requested_ -= std::max<Nanoseconds>(0, clock_ - observation.stamp);  // time without estimates counts
   newest_ = observation;
   clock_ = observation.stamp;
   status_.stamp = observation.stamp;
@@ -178,7 +178,7 @@ bool StopSupervisor::hasConverged() const {
          newest_.speed_std_mps <= params_.converged_speed_std_mps;
 }
 
-/// Goes through the states in their order, so that one observation may take the supervisor through several.
+/// Goes through the states in order, so that one observation may advance the supervisor by several.
 void StopSupervisor::advance() {
   watchForecasts();
   if (!isStopping()) {
@@ -197,7 +197,7 @@ void StopSupervisor::watchForecasts() {
   status_.forecasts_stale = has_estimates_ && toSeconds(newest_.stamp - since) > params_.forecast_timeout_s;
 }
 
-/// What keeps the supervisor from making any stop, nothing when nothing does.
+/// What keeps the supervisor from making any stop, null if nothing does.
 const char* StopSupervisor::obstacle() const {
   if (mode_ == StopMode::kOff) {
     return "the supervisor is off";
@@ -211,7 +211,7 @@ const char* StopSupervisor::obstacle() const {
   return status_.overridden ? "overridden by the operator" : nullptr;
 }
 
-/// Nothing when there is a plan.
+/// Null if there is a plan.
 const char* StopSupervisor::whyNoPlan() const {
   if (obstacle() != nullptr || status_.forecasts_stale) {
     return obstacle();
@@ -232,7 +232,7 @@ std::optional<StopSupervisor::Plan> StopSupervisor::plan() const {
   return Plan{forecast_->stamp + fromSeconds(forecast_->time_to_stop_s), "the position error reaches its threshold"};
 }
 
-/// From the present speed to rest; a stop begins so much earlier.
+/// From the present speed to rest; a stop starts this much earlier.
 double StopSupervisor::brakingTime_s() const {
   return std::isfinite(newest_.forward_mps) ? std::abs(newest_.forward_mps) / params_.deceleration_mps2 : 0.0;
 }

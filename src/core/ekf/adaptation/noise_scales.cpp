@@ -10,16 +10,16 @@ namespace {
 
 /// One outlier must not turn a road into sand.
 constexpr double kLargestNis = 30.0;
-/// What was learned fades towards the prior over so many lengths of the memory.
+/// What was learned fades towards the prior over this many memory lengths.
 constexpr double kPriorLengths = 10.0;
-/// Way between innovations of the wheel speed, and between those of the constraints [m].
+/// Distance between innovations of the wheel speed, and between those of the constraints [m].
 constexpr double kWheelInterval_m = 0.1;
 constexpr double kConstraintInterval_m = 1.0;
 constexpr double kLeastTheta = -9.0;
 
-/// What noise of this kind can be at most: beyond it a contradiction is about the state. An encoder may be ninety times
-/// as coarse as configured; a body does not pitch by more than a tenth about its path, nor slip by more than a third
-/// for long.
+/// Upper limits on the noise of each kind: beyond them a contradiction is about the state. An encoder may be ninety
+/// times as coarse as configured; a body does not pitch by more than a tenth about its path, nor slip by more than a
+/// third for long.
 const NoiseVector& largestTheta() {
   static const NoiseVector largest = (NoiseVector() << 9.0, 2.2, 3.2, 4.2, 3.2, 4.2, 0.0).finished();
   return largest;

@@ -8,7 +8,7 @@
 namespace slipnav {
 namespace {
 
-/// Least information of a mean over hardly any way, against one over the whole length.
+/// Smallest information of a mean over hardly any distance, relative to one over the full length.
 constexpr double kLeastInformation = 0.05;
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace slipnav {
 namespace {
 
-/// Interval and way that the configured deviations belong to.
+/// Interval and distance that the configured deviations refer to.
 constexpr double kReferenceInterval_s = 0.1;
 constexpr double kReferenceWay_m = 0.1;
 constexpr double kLeastWay_m = 1e-4;
