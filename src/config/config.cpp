@@ -8,14 +8,14 @@
 namespace slipnav {
 namespace {
 
-/// Merges a document into what has been read so far. It is first read alone, so that errors name where they are.
+/// Merges a document into what has been read so far. It is first read separately, so that errors name its location.
 void mergeChecked(const YAML::Node& document, const std::string& source, YAML::Node& merged) {
   Config scratch;
   readParameters(document, scratch, source);
   merged.reset(mergeYaml(merged, document));
 }
 
-/// An override has a name, but no lines that an error could point at.
+/// An override has a name, but no lines that an error could refer to.
 void mergeOverride(const Override& item, YAML::Node& merged) {
   try {
     mergeChecked(toYamlNode(item), "", merged);

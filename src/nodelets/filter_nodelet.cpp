@@ -43,11 +43,11 @@ namespace slipnav {
 
 namespace {
 
-/// How often the state is handed over, in time of the stamps.
+/// How often the state is handed over, in sensor time.
 constexpr Nanoseconds kHandOverInterval = kSecond;
-/// [s] without a usable wheel sample, or more where `filter.max_wheel_interval_s` says so.
+/// [s] without a usable wheel sample, or `filter.max_wheel_interval_s` if that is longer.
 constexpr double kSilence_s = 0.5;
-/// [s] without a step of the mechanisation.
+/// [s] without a step of the mechanization.
 constexpr double kStepSilence_s = 1.0;
 
 }  // namespace
@@ -135,7 +135,7 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
-  /// The estimate ends; a new start is looked for.
+  /// Ends the estimate; the search for a new start begins.
   void end() {
     started_ = has_steps_ = lost_ = false;
     engine_->reset();
@@ -176,7 +176,7 @@ class FilterNodelet : public CoreNodelet {
 
   static bool isBeginning(const InsSteps& steps) { return steps.epoch == 0 && steps.steps.front().sequence == 0; }
 
-  /// This nodelet was loaded anew: the steps from the initial state on are gone.
+  /// This nodelet was reloaded: the steps from the initial state on are gone.
   void requestStart() {
     if (!lost_) {
       NODELET_WARN("the mechanization is ahead of this filter, which requests a new start");
@@ -187,7 +187,7 @@ class FilterNodelet : public CoreNodelet {
     request_publisher_.publish(message);
   }
 
-  /// The mechanisation was loaded anew: its first steps are void, and it goes on from the filter's state.
+  /// The mechanization was reloaded: its first steps are void, and it resumes from the filter's state.
   void restartMechanisation() {
     NODELET_WARN("the mechanization restarts");
     gate_.clear();
@@ -262,7 +262,7 @@ class FilterNodelet : public CoreNodelet {
     proceed();
   }
 
-  /// Of the IMU, from which on the filter does not wait for fixes any more.
+  /// IMU stamp from which the filter no longer waits for fixes.
   Nanoseconds fixesDecidedAt() const {
     const Nanoseconds known = engine_->fixesKnownUntil();
     const Nanoseconds never = std::numeric_limits<Nanoseconds>::max();
@@ -282,9 +282,9 @@ class FilterNodelet : public CoreNodelet {
   double tickInterval_s() const override { return 0.5 * kPatience_s; }
   void onTick() override { proceed(); }
 
-  /// Works off what has become certain, and tells the mechanisation.
+  /// Processes what has become certain, and informs the mechanization.
   void proceed() {
-    if (!has_steps_) {  // the mechanisation may be loaded later
+    if (!has_steps_) {  // the mechanization may be loaded later
       return;
     }
     gate_.release(
@@ -384,7 +384,7 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
-  /// The worst first. Where steps are missing the cause stands in the status of Ins, and nothing here is of now.
+  /// Worst first. If steps are missing the cause is in the status of Ins, and nothing here is current.
   void diagnoseInputs(diagnostic_updater::DiagnosticStatusWrapper& status) const {
     using diagnostic_msgs::DiagnosticStatus;
     const std::string failure = wheels_watch_ ? wheels_watch_->problem(wheel_input_->topic(), clocks()) : "";

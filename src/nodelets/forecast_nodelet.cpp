@@ -23,7 +23,7 @@ namespace slipnav {
 
 namespace {
 
-/// [s] by stamps that something has to last before it is a warning: windows are filled, and fits fail, now and then.
+/// [s] by stamps that a problem must last before it is a warning: filling windows and failing fits are normal.
 constexpr double kTrouble_s = 5.0;
 /// [s] without an estimate.
 constexpr double kSilence_s = 2.0;
@@ -86,7 +86,7 @@ class ForecastNodelet : public CoreNodelet {
     error_publisher_.publish(error);
   }
 
-  /// Of the newest forecast, "" for none. Single ones are normal.
+  /// Problem of the newest forecast, otherwise "". Single ones are normal.
   std::string troubleOf() const {
     if (!forecaster_->problem().empty()) {
       return "no forecast: " + forecaster_->problem();

@@ -1,4 +1,4 @@
-/// slipnav/LegacyBridge: says what the core_nav node of the paper's own software would say, to those who listen to it.
+/// slipnav/LegacyBridge: publishes what the core_nav node of the paper's software would, for its subscribers.
 ///
 /// In: nav_state, slip. Out: core_nav/core_nav/{position, llh, ecef, enu, velocity, attitude, cn_odom, slip}.
 

@@ -1,4 +1,4 @@
-/// Looks at a recording and says what is wrong with it, and writes a configuration from what it tells.
+/// Checks a recording, reports what is wrong with it, and writes a configuration from what it reveals.
 
 #include <iostream>
 #include <stdexcept>
@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
   return slipnav::statusOf(inspection.findings);
 }
 
-/// Status 1 means doubt: whatever keeps from looking at the recording is 2.
+/// Status 1 means doubt: anything that prevents checking the recording is 2.
 int runToStatus(int argc, char** argv) {
   try {
     return run(argc, argv);

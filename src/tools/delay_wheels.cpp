@@ -1,5 +1,5 @@
-/// Copies a recording and makes the wheel messages come later, each by a random time of its own: what a busy network
-/// does. Headers stay as they are.
+/// Copies a recording and delays its wheel messages, each by a random time, like a busy network. Headers
+/// are unchanged.
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>

@@ -92,7 +92,7 @@ void printFindings(const slipnav::BagEvaluation& evaluation) {
             << slipnav::alarmLines("evaluate: alarm", others, evaluation.begin);
 }
 
-/// Also a run without a start leaves behind what was wrong.
+/// A run without a start also reports its problems.
 slipnav::BagEvaluation evaluated(const slipnav::Config& config, const Arguments& arguments) {
   try {
     return slipnav::evaluateBag(partsOf(arguments), config, arguments.text("truth"), {}, arguments.given("smooth"));

@@ -1,4 +1,4 @@
-/// Injects faults into a simulated drive, one by one and in random pairs, and prints what becomes of the estimate.
+/// Injects faults into a simulated drive, singly and in random pairs, and prints their effect on the estimate.
 
 #include <algorithm>
 #include <iomanip>
@@ -25,7 +25,7 @@ using slipnav::Config;
 using slipnav::Fault;
 
 constexpr double kWorseFactor = 2.0;
-constexpr double kLeastError_m = 0.1;  // below this an error is none worth comparing
+constexpr double kLeastError_m = 0.1;  // smaller errors are not worth comparing
 
 CommandLine commandLine() {
   CommandLine command_line("faults", "Injects faults into a simulated drive and prints their effect on the estimate.");
@@ -47,7 +47,7 @@ void simulate(const Config& config, const std::string& bag) {
   writer.close();
 }
 
-/// What came of one run.
+/// Result of one run.
 struct Outcome {
   bool survived = false;  ///< it ended with finite estimates
   std::string failure;

@@ -1,4 +1,4 @@
-/// The solutions of an RTKLIB file as rows of numbers, for scripts; what it leaves out goes to standard error.
+/// The solutions of an RTKLIB file as rows of numbers, for scripts; skipped rows are reported on standard error.
 
 #include <iostream>
 #include <limits>
@@ -21,7 +21,7 @@ CommandLine commandLine() {
   return command_line;
 }
 
-/// Solutions without the rows that hold none; these are counted by what is the matter with them.
+/// Rows that contain a solution; the others are counted by what is wrong with them.
 std::vector<RtklibSolution> solved(const std::vector<RtklibSolution>& rows, std::map<std::string, int>& left_out) {
   std::vector<RtklibSolution> solutions;
   for (const RtklibSolution& row : rows) {
@@ -34,7 +34,7 @@ std::vector<RtklibSolution> solved(const std::vector<RtklibSolution>& rows, std:
   return solutions;
 }
 
-/// Without those that the truth of an evaluation would be without.
+/// Without those that an evaluation would reject as truth.
 std::vector<RtklibSolution> withoutOutliers(const std::vector<RtklibSolution>& solutions,
                                             std::map<std::string, int>& left_out) {
   std::vector<slipnav::GnssFix> fixes;

@@ -21,7 +21,7 @@ using slipnav::Arguments;
 using slipnav::CommandLine;
 using slipnav::Config;
 
-/// Where worlds and grades are: installed, or in the source tree.
+/// Location of worlds and grades: installed, or in the source tree.
 std::string configurationFolder(const std::string& kind) {
   const std::filesystem::path installed = slipnav::packageExecutable("../../share/slipnav/config");
   const std::filesystem::path folder =
@@ -75,7 +75,7 @@ Config configuration(const Arguments& arguments) {
   return config;
 }
 
-/// Drives, navigates and records; returns what there is to say about it.
+/// Drives, navigates and records; returns the report.
 slipnav::SimulationReport drive(const Config& config, slipnav::StopPolicy& policy, const std::string& bag,
                                 bool with_baselines, bool smooth) {
   if (bag.empty()) {
@@ -92,7 +92,7 @@ slipnav::SimulationReport drive(const Config& config, slipnav::StopPolicy& polic
   return report;
 }
 
-/// Prints the names where they were asked for. @return whether they were
+/// Prints the names if requested. @return whether they were
 bool listNames(const Arguments& arguments) {
   bool listed = false;
   for (const char* kind : {"world", "grade"}) {

@@ -41,7 +41,7 @@ struct BagReader::Parts {
   Config config;
   BagParts bag;
   std::map<std::string, std::string> types;  ///< of each topic, by its bare name
-  std::string truth_topic;                   ///< bare; "" when there is none
+  std::string truth_topic;                   ///< bare; "" if there is none
   Nanoseconds begin = 0;
   Nanoseconds end = 0;
 
@@ -166,7 +166,7 @@ struct BagReader::Parts {
     }
   }
 
-  /// The state of the IMU at a truth message, and whether its attitude is known; nothing when it cannot be used.
+  /// The state of the IMU at a truth message, and whether its attitude is known; nothing if it cannot be used.
   std::optional<std::pair<NavigationState, bool>> truthStart(const BagEntry& entry) {
     if (bag.holds<sensor_msgs::NavSatFix>(entry)) {
       const std::optional<GnssFix> fix = toGnssFix(bag.read<sensor_msgs::NavSatFix>(entry));

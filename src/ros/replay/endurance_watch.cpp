@@ -19,10 +19,10 @@ constexpr double kRowInterval_s = 60.0;
 constexpr std::size_t kRowsInAnHour = 60;
 
 constexpr double kMostGrowth_mb = 2.0;
-constexpr double kMostTrend = 1.5;     // latency of the last hour in terms of that of the first
-constexpr double kLongestGap_s = 0.1;  // none of the estimates may be missing
+constexpr double kMostTrend = 1.5;     // latency of the last hour relative to the first
+constexpr double kLongestGap_s = 0.1;  // no estimate may be missing
 constexpr double kLeastCovered_pct = 99.0;
-/// 99 % of chi-square with three degrees of freedom, over three: the errors of one drive are as good as one sample.
+/// 99 % of chi-square with three degrees of freedom, over three: the errors of one drive count as one sample.
 constexpr double kMostNees = 3.78;
 
 double now() { return ros::SteadyTime::now().toSec(); }

@@ -15,7 +15,7 @@
 namespace slipnav {
 namespace {
 
-/// Fields of /proc/PID/stat after the name, which may hold spaces: of them the first is the state.
+/// Fields of /proc/PID/stat after the name, which may contain spaces: the first of them is the state.
 constexpr int kUserTime = 11;
 constexpr int kThreads = 17;
 constexpr int kResidentPages = 21;

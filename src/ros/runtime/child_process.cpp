@@ -14,7 +14,7 @@ extern char** environ;
 namespace slipnav {
 namespace {
 
-constexpr int kUnknownStatus = 127;  // somebody else has waited for the program
+constexpr int kUnknownStatus = 127;  // something else has waited for the program
 
 int exitStatus(int wait_status) {
   return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);

@@ -9,7 +9,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Of a status that comes twice a second, on a machine that is busy.
+/// Of a status published twice a second, on a busy machine.
 constexpr double kLifetime_s = 2.0;
 
 /// A status has the name of its process before that of the nodelet.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kNowhere = "none";
 
-/// As roscpp finds it; "" when there is none.
+/// As roscpp finds it; "" if there is none.
 std::string rosHome() {
   if (const char* home = std::getenv("ROS_HOME"); home != nullptr && *home != '\0') {
     return home;
