@@ -32,7 +32,7 @@ class Table {
   void add(const std::string& name, double configured, double estimated, double std, int decimals) {
     row(name, number(configured, decimals), number(estimated, decimals), number(std, decimals));
   }
-  /// Of something that has no configured value.
+  /// For a quantity without a configured value.
   void add(const std::string& name, const Calibrated& found, int decimals) {
     row(name, "-", number(found.value, decimals), number(found.std, decimals));
   }
@@ -92,7 +92,7 @@ void addMount(const Config& config, const CalibrationResult& result, Table& tabl
   }
 }
 
-/// The part of the configuration that is written, with the very names of its keys.
+/// The configuration block to write, with the exact names of its keys.
 struct WheelBlock {
   std::vector<WheelParams> wheels;
   void visit(ParameterVisitor& v) { v.list("wheels", wheels, "calibrated on firm ground; the wheels of a side alike"); }

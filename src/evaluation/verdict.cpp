@@ -32,7 +32,7 @@ class Text {
   std::ostringstream out_;
 };
 
-/// Of a drive without truth that is known to return.
+/// For a drive without truth that is known to return.
 std::string closureOf(const Metrics& metrics) {
   const double bound_m = metrics.closure_3sigma_m.value_or(0.0);
   const bool is_within = *metrics.closure_m <= bound_m;

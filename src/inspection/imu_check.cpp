@@ -11,11 +11,11 @@ namespace slipnav {
 namespace {
 
 constexpr double kStandardGravity_mps2 = 9.80665;
-/// Samples of which the mean rate is taken: no vibration lasts so long.
+/// Samples over which the mean rate is taken: no vibration lasts that long.
 constexpr std::size_t kBlock = 20;
 /// No rover turns faster than 290 °/s for the length of a block.
 constexpr double kLargestRate_radps = 5.0;
-/// Sensors and their scale factors are within it.
+/// Sensors and their scale factors are within this.
 constexpr double kForceTolerance = 0.25;
 /// Wheels and gyros differ by scrub and slip, not by this factor.
 constexpr double kUnitFactor = 15.0;
@@ -23,12 +23,12 @@ constexpr double kUnitFactor = 15.0;
 constexpr double kLeastTrack_m = 0.03;
 /// The same in wheel radii.
 constexpr double kLeastTrackInRadii = 0.5;
-/// Wheels in m/s and accelerometer agree within it, unless a radius is wrong.
+/// Wheels in m/s and accelerometer agree within this, unless a radius is wrong.
 constexpr double kLeastGain = 0.5;
 constexpr double kLargestGain = 2.0;
 constexpr double kReversed_rad = 0.75 * kPi;
 constexpr double kAxisTolerance_rad = 0.35;
-/// Where wheels slip much, their turns do not show an axis.
+/// Where wheels slip much, their turns do not reveal an axis.
 constexpr double kClearTurn = 0.5;
 constexpr double kClearForce = 0.8;
 constexpr double kTiltWorthSaying_rad = 0.1;

@@ -15,20 +15,20 @@ namespace {
 constexpr StreamNeeds kImuNeeds = {20.0, 1000.0, false};  // scatter: see ImuClock
 constexpr StreamNeeds kWheelNeeds = {2.0, 1000.0, true};
 constexpr StreamNeeds kPositionNeeds = {0.0, 1000.0, false};
-/// No message is on its way for so long.
+/// No message takes this long.
 constexpr double kApart_s = 0.5;
-/// wheel.stamp_delay_s corrects up to so much.
+/// wheel.stamp_delay_s corrects up to this much.
 constexpr double kCorrectable_s = 1.0;
-/// Sharper than a shift is known.
+/// Smaller shifts are not resolved.
 constexpr double kLeastShift_s = 0.1;
-/// Of the first pose of a truth in the robot's own frame, and of those that follow (sine of half of the tilt).
+/// For the first pose of a truth in the robot's own frame, and for those that follow (sine of half of the tilt).
 constexpr double kZero_m = 1e-3;
 constexpr double kLevel = 1e-4;
 constexpr double kLeans = 2e-3;
-/// Speeds that DirectionCheck looks at.
+/// Speeds that DirectionCheck considers.
 constexpr double kRestSpeed_mps = 0.02;
 
-/// Begins at exactly zero with attitude zero, and leans later: the frame is that of the robot at the start.
+/// Starts at exactly zero with attitude zero, and is tilted later: the frame is that of the robot at the start.
 bool isInStartFrame(const PoseRecord& record) {
   const auto tilt = [](const RawPoseSample& sample) {  // sine of half of it
     return sample.q_to_parent ? sample.q_to_parent->vec().head<2>().norm() : 0.0;
@@ -282,7 +282,7 @@ class Inspector {
     }
   }
 
-  /// What the estimator itself would complain of.
+  /// Complaints that the estimator itself would make.
   void checkAsEstimator(const ImuTrack& imu, const Matrix3& C_sensor_to_flu, double ahead_s) {
     const Matrix3 C_sensor_to_b = Vector3(1.0, -1.0, -1.0).asDiagonal() * C_sensor_to_flu;
     InputCheck check(result_.rest.force.norm(), kRestSpeed_mps);

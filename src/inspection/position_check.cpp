@@ -12,18 +12,18 @@
 namespace slipnav {
 namespace {
 
-/// Qualities are mixed when the worst 1σ is so many times the best.
+/// Quality is mixed if the worst 1σ is this many times the best.
 constexpr double kMixed = 5.0;
 constexpr double kPoor_m = 1.0;
 /// Slopes that no rover drives on average.
 constexpr double kSteep = 0.3;
 constexpr double kPiece_m = 10.0;
 constexpr double kChord_m = 1.0;
-/// Of the time of a piece that wheels have to cover, and of its way that may be backwards.
+/// Share of the time of a piece that wheels must cover, and of its distance that may be backwards.
 constexpr double kComplete = 0.9;
 constexpr double kReverseShare = 0.01;
 constexpr std::size_t kLeastPieces = 3;
-/// Radii are not further off; beyond, the unit is wrong.
+/// Radii are not further off than this; beyond, the unit is wrong.
 constexpr double kScaleTolerance = 0.05;
 constexpr double kManyJumps = 0.1;
 
@@ -105,7 +105,7 @@ void checkHeight(const std::string& topic, const TruthTrack& positions, Findings
   }
 }
 
-/// Way by the wheels between two times [unit of the track]; negative where the vehicle reversed or rows are missing.
+/// Distance by the wheels between two times [unit of the track]; negative if the vehicle reversed or rows are missing.
 double wayForward(const WheelTrack& wheels, double from_s, double to_s) {
   double way = 0.0;
   double covered_s = 0.0;

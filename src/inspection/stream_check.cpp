@@ -11,13 +11,13 @@ namespace {
 /// Longer than this many usual intervals, and than kGap_s, is a loss and not jitter.
 constexpr double kGapFactor = 3.0;
 constexpr double kGap_s = 0.5;
-/// Stamps of a clock that is read when a sample is taken scatter by less than this share of an interval.
+/// Stamps from a clock read at the time of sampling scatter by less than this share of an interval.
 constexpr double kEvenJitter = 0.1;
-/// Of the usual interval.
+/// Relative to the usual interval.
 constexpr double kOffPace = 0.25;
-/// A clock that is ahead by so much more than messages have waited was set.
+/// A clock ahead by this much more than messages were delayed was set.
 constexpr double kLongestJump_s = 60.0;
-/// An odd repeated stamp costs nothing.
+/// An occasional repeated stamp does no harm.
 constexpr double kFewEqual = 0.01;
 
 struct Intervals {
@@ -37,7 +37,7 @@ Intervals intervalsOf(const std::vector<MessageTime>& times) {
       } else if (interval == 0) {
         ++result.counts.equal;
       } else if (interval <= -kRestartBackstep) {
-        result.counts.set_back_s.push_back(toSeconds(-interval));  // the usual interval is added when it is known
+        result.counts.set_back_s.push_back(toSeconds(-interval));  // the usual interval is added once known
       } else {
         ++result.counts.backwards;
       }
@@ -72,7 +72,7 @@ void noteIntervals(const std::vector<double>& forward_s, StreamStatistics& stati
   statistics.rate_hz = covered_s > 0.0 ? usual / covered_s : 0.0;
 }
 
-/// Until a clock is set back: after that it says something else.
+/// Until a clock is set back: after that it means something else.
 double medianDelay(const std::vector<MessageTime>& times) {
   std::vector<double> delays_s;
   Nanoseconds before = 0;

@@ -28,7 +28,7 @@ struct SurfacePoint {
   double looseness = 0.0;  ///< 0 on the firm area around the start, 1 out in the terrain
 };
 
-/// Height as a function of the place. Immutable.
+/// Height as a function of position. Immutable.
 class Terrain {
  public:
   /// @param start_heading_rad the firm area is centred on the straight that begins at the origin with this heading
@@ -74,7 +74,7 @@ class Terrain {
   Vector2 tilt_;  ///< gradient of the whole plane
 };
 
-/// The same surface for someone who asks at places close to each other: sines come from those at a nearby anchor by
+/// The same surface for successive positions close to each other: sines come from those at a nearby anchor by
 /// the addition theorem, which is several times faster and agrees to rounding.
 class TerrainFollower {
  public:

@@ -37,7 +37,7 @@ std::string fixed(double value, int decimals, bool with_sign = false) {
   return out.str();
 }
 
-/// "×/÷ 1.2" of a factor, "± 0.004" of an amount.
+/// "×/÷ 1.2" for a factor, "± 0.004" for an amount.
 std::string uncertainty(const TunedKnob& tuned) {
   return tuned.knob.is_factor ? "×/÷ " + number(std::exp(*tuned.std)) : "± " + number(*tuned.std);
 }
