@@ -1,4 +1,4 @@
-# Language level, optimisation, warnings and sanitizers of this package's own targets.
+# Language level, optimization, warnings and sanitizers of this package's own targets.
 #
 # Results must be equal bit for bit across machines and builds. Hence no -march=native, no -ffast-math, and no fused
 # multiply-add that the compiler would otherwise form wherever the target has one.

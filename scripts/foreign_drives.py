@@ -2,7 +2,7 @@
 """Evaluates drives that nobody here made, each with the data sheet of its sensor alone, beside simpler methods.
 
 Prints a table, and what is broken of the limits below it; ends with status 1 when one is. Drives whose file is not
-there are left out by name.
+there are skipped by name.
 """
 
 import argparse
@@ -108,7 +108,7 @@ def check(drive, outcome, limits):
                        LARGEST_RATIO * drive.wheels_and_gyro_pct + SPARE_PCT)
     else:
         limits.at_most(drive.bag, "final error m", metrics["horizontal_final_m"], drive.largest_final_m)
-        return  # truth of metres, with errors that last, says nothing about 3σ
+        return  # truth good to meters, with lasting errors, says nothing about 3σ
     limits.at_least(drive.bag, "coverage of 3σ %", metrics["coverage_3sigma_pct"], LEAST_COVERAGE_PCT)
     limits.at_least(drive.bag, "used stops", outcome.stops_used, outcome.stops_seen)
 

@@ -21,7 +21,7 @@ ENVIRONMENT = ("PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH")
 
 
 def die_with_parent():
-    """Of a worker that is killed no process goes on, which would write beside the one that takes its place."""
+    """A killed worker leaves no process running, which would write alongside its replacement."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 

@@ -54,7 +54,7 @@ def accuracy_section(groups, outcomes, simulated):
     for name, members in groups.items():
         without = [one for one in judged(members, outcomes) if outcomes[one].metrics["enu_error_pct"] is None]
         if without:
-            notes.append(f"{name}: no error can be told of {names_text(without)}, for want of truth.")
+            notes.append(f"{name}: no errors for {names_text(without)}: no truth.")
     return Section("Table I: accuracy by group", [Table(heads, rows)], notes, data=data)
 
 
@@ -84,7 +84,7 @@ def seconds_of(stops, kind):
 
 
 def kind_data(groups, outcomes, kind):
-    """({group: its values}, whether each interval counts by itself, notes). Groups without a value are left out."""
+    """({group: its values}, whether each interval counts by itself, notes). Groups without a value are omitted."""
     found, notes = {}, []
     for name, members in groups.items():
         times = {one: seconds_of(outcomes[one].stops, kind) for one in judged(members, outcomes)}

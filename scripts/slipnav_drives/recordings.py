@@ -9,7 +9,7 @@ ENDING = ".bag"
 # Of folders: what is no recording of ROS 1, by its ending.
 LEFT_OUT = {".mcap": "a recording of ROS 2; convert it, for example by rosbags-convert",
             ".db3": "a recording of ROS 2; convert it, for example by rosbags-convert",
-            ".bag.active": "it was not finished; rosbag reindex may mend it, without the ending .active"}
+            ".bag.active": "it was not finished; rosbag reindex may repair it, without the ending .active"}
 LONGEST_GAP_S = 3.0  # from the last message of a part to the first of the next
 LONGEST_OVERLAP_S = 0.5  # messages of several sensors are not written in perfect order
 EXPECTED = 3  # messages of a topic in a part, by its rate in the other: fewer may be none
@@ -41,7 +41,7 @@ def files_in(folder, say):
     for path in inside:
         for ending, cause in LEFT_OUT.items():
             if path.endswith(ending):
-                say(f"{path} is left out: {cause}")
+                say(f"{path} is skipped: {cause}")
     found = [path for path in inside if path.endswith(ENDING)]
     if not found:
         raise ValueError(f"no recording (*{ENDING}) in the folder '{folder}'")

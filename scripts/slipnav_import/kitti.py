@@ -54,16 +54,16 @@ def read_rows(folder, shift_ns):
     good = [row for row in rows if all(abs(number) < float("inf") for number in row[1])]
     notes = []
     if len(there) < len(paths):
-        notes.append(f"{folder}: {counted(len(paths) - len(there), 'file')} of {len(paths)} stamps not there: left out")
+        notes.append(f"{folder}: {counted(len(paths) - len(there), 'file')} of {len(paths)} stamps missing: skipped")
     if len(good) < len(rows):
-        notes.append(f"{folder}: {counted(len(rows) - len(good), 'file')} with NaN left out")
+        notes.append(f"{folder}: {counted(len(rows) - len(good), 'file')} with NaN skipped")
     if not good:
         raise Failure(f"{folder}: has no data: {os.path.join('data', '0000000000.txt')} is the first that is wanted")
     return [stamp for stamp, _ in good], [numbers for _, numbers in good], notes
 
 
 def streams(folder, shift_ns=0, speed_as_wheels=False):
-    """IMU and truth; the forward speed in place of wheels only when asked, since it is none of wheels."""
+    """IMU and truth; the forward speed in place of wheels only when asked, since it is not from wheels."""
     stamps, rows, notes = read_rows(folder, shift_ns)
 
     def imu(i, stamp):

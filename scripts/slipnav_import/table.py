@@ -1,4 +1,4 @@
-"""Files of rows and columns: numbers in SI by key, stamps in nanoseconds, and what was left out."""
+"""Files of rows and columns: numbers in SI by key, stamps in nanoseconds, and what was skipped."""
 
 import csv
 import math
@@ -58,7 +58,7 @@ def is_word(field):
 
 
 def date_ns(field):
-    """UNIX time of a date of UTC; None for what is none."""
+    """UNIX time of a UTC date; None for anything else."""
     match = DATE.fullmatch(field)
     if not match:
         return None
@@ -115,7 +115,7 @@ class Heading:
 
 
 class Table:
-    """Stamps [ns], columns by key, and notes on rows that were left out.
+    """Stamps [ns], columns by key, and notes on skipped rows.
 
     @param columns of columns.parse()
     @param kinds by key: the kinds of units that a column may be of; a key that is not there takes those of None
@@ -184,7 +184,7 @@ class Table:
                 fields.pop()  # a separator at the end
             if len(fields) != self._count:
                 if index + 1 == len(rows) and len(fields) < self._count and index > 0:
-                    self.notes.append(f"{self.path}:{number}: the last row is cut off: left out")
+                    self.notes.append(f"{self.path}:{number}: the last row is cut off: skipped")
                     continue
                 raise Failure(f"{self.path}:{number}: {len(fields)} fields instead of {self._count}")
             wanted = [fields[place] for place in self._places]
@@ -196,7 +196,7 @@ class Table:
             self._values.append([0.0 if i == time_at else self._number(field, i, number)
                                  for i, field in enumerate(wanted)])
         if absent:
-            self.notes.append(f"{self.path}: {counted(len(absent), 'row')} with NaN or empty fields left out, "
+            self.notes.append(f"{self.path}: {counted(len(absent), 'row')} with NaN or empty fields skipped, "
                               f"the first in line {absent[0]}")
 
     def _number(self, field, i, number):

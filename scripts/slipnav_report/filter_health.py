@@ -39,7 +39,7 @@ def velocity(run):
     axes.plot(*thinned(run.timeline["t"], run.timeline["speed"]), color=palette.ESTIMATE, lw=0.8, label="filter")
     shade_standstill(axes, run)
     axes.set_ylabel("forward speed [m/s]")
-    axes.set_xlabel("time [s]; grey: stops")
+    axes.set_xlabel("time [s]; gray: stops")
     axes.grid(alpha=0.3)
     legend_beside(axes)
     return figure
@@ -65,7 +65,7 @@ def biases(run):
         legend_beside(axes)
         if not has_values(run.filter[f"{sensor}_bias_x"]):
             say_why_empty(axes, "the filter made no update in this run")
-    gyro.set_xlabel("time [s]; grey: stops")
+    gyro.set_xlabel("time [s]; gray: stops")
     return figure
 
 

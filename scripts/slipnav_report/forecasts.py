@@ -26,7 +26,7 @@ def slip_and_forecast(run):
     if not has_values(run.timeline["slip"]) and not len(table["t"]):
         say_why_empty(axes, "no slip: the wheels never turned fast enough to tell it")
     axes.set_ylabel("slip ratio")
-    axes.set_xlabel("time [s]; grey: stops")
+    axes.set_xlabel("time [s]; gray: stops")
     axes.grid(alpha=0.3)
     legend_beside(axes)
     return figure
@@ -63,7 +63,7 @@ def predicted_and_realised(run):
     starts, first = np.unique(table["t"], return_index=True)
     countdown.plot(starts, table["time_to_stop_s"][first], ".", color=palette.ERROR, ms=3)
     countdown.set_ylabel("time to stop [s]")
-    countdown.set_xlabel("time [s]; grey: stops")
+    countdown.set_xlabel("time [s]; gray: stops")
     if not len(starts):
         error.set_title("no error was forecast in this run")
         say_why_empty(countdown, "no forecast, no countdown")

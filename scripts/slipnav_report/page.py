@@ -16,10 +16,10 @@ FIGURES = (
     ("track", "Ground track", tracks.ground_track),
     ("errors", "Position error and its ±3σ bounds", tracks.position_errors),
     ("slip", "Slip and its forecast", forecasts.slip_and_forecast),
-    ("forecast", "Forecast and realised error, time to stop", forecasts.predicted_and_realised),
+    ("forecast", "Forecast and actual error, time to stop", forecasts.predicted_and_realised),
     ("velocity", "Velocity", filter_health.velocity),
     ("biases", "IMU biases", filter_health.biases),
-    ("consistency", "Consistency: normalised innovations and errors", filter_health.consistency),
+    ("consistency", "Consistency: normalized innovations and errors", filter_health.consistency),
 )
 
 # Heading of the table, key in metrics.json, decimals: the columns of the paper's Table I.

@@ -63,7 +63,7 @@ def errors_of(line):
 
 
 def standstills(timeline):
-    """Rows (begin, end) of each standstill, end being the first that is none; those of the first and last epoch are no
+    """Rows (begin, end) of each standstill, end being the first row after it; those of the first and last epoch are no
     stops."""
     edges = np.flatnonzero(np.diff((timeline["stationary"] > 0.5).astype(int))) + 1
     if timeline["stationary"][0] > 0.5:

@@ -57,7 +57,7 @@ def position_errors(run):
         legend_beside(axes)
     if np.isnan(errors).all():
         all_axes[0].set_title("no truth in this recording: bounds only")
-    all_axes[-1].set_xlabel("time [s]; grey: stops")
+    all_axes[-1].set_xlabel("time [s]; gray: stops")
     return figure
 
 

@@ -44,7 +44,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class Stretch:
-    """Driving between stops, from the begin of the route to the first, or from the last to the end of the drive."""
+    """Driving between stops, from the start of the route to the first, or from the last to the end of the drive."""
 
     duration_s: float
     growth_m: Optional[float]  # largest horizontal length of the change of the error since its begin

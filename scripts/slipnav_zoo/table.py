@@ -2,7 +2,7 @@
 
 
 def number(value, digits=2):
-    """So many decimals, fewer for large numbers; a dash where there is none."""
+    """This many decimals, fewer for large numbers; a dash where there is none."""
     if value is None or value != value:
         return "-"
     if abs(value) >= 1000:

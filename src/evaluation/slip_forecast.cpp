@@ -153,7 +153,7 @@ std::string toJson(const SlipForecastResult& forecast) {
 std::string summaryOf(const SlipForecastResult& forecast) {
   std::string text = "model " + forecast.model + ": " + toString(forecast.fit.status) + ", " +
                      std::to_string(forecast.fit.samples) + " samples, " + std::to_string(forecast.fit.left_out) +
-                     " left out, log marginal likelihood " + rounded(forecast.fit.log_marginal_likelihood) + "\n";
+                     " dropped, log marginal likelihood " + rounded(forecast.fit.log_marginal_likelihood) + "\n";
   const char* separator = "";
   for (const auto& [name, value] : forecast.fit.hyperparameters) {
     text += separator + name + " " + rounded(value);

@@ -18,10 +18,10 @@ struct TruthSample {
   Matrix3 covariance_enu_m2 = Matrix3::Zero();            ///< of the position, zero if unknown or exact
 };
 
-/// Samples in order of stamp, with interpolation between neighbours.
+/// Samples in order of stamp, with interpolation between neighbors.
 class TruthTrack {
  public:
-  /// Longest interval between neighbours that is interpolated [s].
+  /// Longest interval between neighbors that is interpolated [s].
   static constexpr double kMaxGapS = 1.5;
 
   TruthTrack() = default;

@@ -2,7 +2,7 @@
 ///
 /// In: imu/data, joint_states or wheel_odometry, gps/fix, gps/velocity; hand_over, start_request. Out, latched:
 /// initial_state, initialization, TF map → odom.
-/// Services: initialise, reset.
+/// Services: initialize, reset.
 
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <sensor_msgs/Imu.h>

@@ -47,7 +47,7 @@ struct FanSection {
   double time_s = 0.0;
   double bound_m = 0.0;
   Vector3 centre_enu_m = Vector3::Zero();
-  Vector3 left_enu_m = Vector3::Zero();   ///< `bound_m` to the left of the centre
+  Vector3 left_enu_m = Vector3::Zero();   ///< `bound_m` to the left of the center
   Vector3 right_enu_m = Vector3::Zero();  ///< and to the right
 };
 

@@ -29,7 +29,7 @@ class CorrelatedProcess {
 
   RandomStream stream_;
   double spacing_m_;
-  double persistence_;  ///< correlation of neighbouring grid values
+  double persistence_;  ///< correlation of neighboring grid values
   double scale_;        ///< makes up for the variance that the spline smooths away
   std::vector<double> grid_;
 };

@@ -80,7 +80,7 @@ class EncoderModel {
   EncoderModel(const EncoderParams& params, Nanoseconds start, std::uint64_t seed, std::size_t wheels = kWheelCount);
 
   WheelSample measure(const PerWheel& angle_rad, Nanoseconds stamp);
-  /// Quantised angles of the last sample, from zero at the start [rad].
+  /// Quantized angles of the last sample, from zero at the start [rad].
   const EncoderAngles& angles() const { return last_angle_rad_; }
 
  private:

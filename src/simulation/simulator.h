@@ -30,14 +30,14 @@ struct Command {
 /// One sample of the encoders.
 struct WheelReading {
   WheelSample sample;
-  EncoderAngles angle_rad = {};  ///< accumulated, quantised
+  EncoderAngles angle_rad = {};  ///< accumulated, quantized
 };
 
 /// Sensor outputs in one IMU interval. The optional ones were sampled inside that interval.
 struct Measurements {
   ImuSample imu;
   std::optional<WheelSample> wheel;
-  EncoderAngles wheel_angle_rad = {};        ///< accumulated, quantised; goes with `wheel`
+  EncoderAngles wheel_angle_rad = {};        ///< accumulated, quantized; goes with `wheel`
   std::vector<WheelReading> earlier_wheels;  ///< before `wheel`, when encoders are faster than the IMU
   std::optional<GnssFix> gps;                ///< for initialization
   std::optional<GnssFix> truth;              ///< for metrics only

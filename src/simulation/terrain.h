@@ -20,7 +20,7 @@ struct ReliefParams {
   double tilt_deg = 0.0;  ///< of the whole plane, the firm area included; uphill in the direction of the start
 };
 
-/// The surface that the centre of the wheels follows, at one place.
+/// The surface that the center of the wheels follows, at one place.
 struct SurfacePoint {
   double height_m = 0.0;                                    ///< above the start
   Vector2 gradient = Vector2::Zero();                       ///< d/d(east, north)
@@ -31,7 +31,7 @@ struct SurfacePoint {
 /// Height as a function of position. Immutable.
 class Terrain {
  public:
-  /// @param start_heading_rad the firm area is centred on the straight that begins at the origin with this heading
+  /// @param start_heading_rad the firm area is centered on the straight that begins at the origin with this heading
   Terrain(const ReliefParams& relief, double start_heading_rad, double straight_m, std::uint64_t seed);
 
   /// Height and its derivatives; infinitely differentiable over the whole plane.

@@ -15,7 +15,7 @@ using PerWheel = std::array<double, kWheelCount>;
 /// Angle of each wheel that has an encoder, in the order of WheelSample.
 using EncoderAngles = std::array<double, kMaxWheels>;
 
-/// Pose and motion are those of base_link, the centre of the four wheel centres. Body axes: forward, right, down.
+/// Pose and motion are those of base_link, the center of the four wheel centers. Body axes: forward, right, down.
 struct TruthState {
   Nanoseconds stamp = 0;
   Geodetic position;

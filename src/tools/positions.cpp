@@ -81,7 +81,7 @@ int run(int argc, char** argv) {
   }
   print(solutions);
   for (const auto& [what, count] : left_out) {
-    std::cerr << path << ": " << what << ": " << count << " left out\n";
+    std::cerr << path << ": " << what << ": " << count << " skipped\n";
   }
   return 0;
 }

@@ -86,7 +86,7 @@ TEST(RtklibPos, readsDegreesMinutesSecondsAndCommas) {
   EXPECT_NEAR(solutions[0].fix.covariance_ned_m2(1, 1), 4.0, 1e-12);
 }
 
-/// Earth-centred coordinates of 39.6° N, 79.9° W, 250 m, written with 0.1 mm, as RTKLIB does.
+/// Earth-centered coordinates of 39.6° N, 79.9° W, 250 m, written with 0.1 mm, as RTKLIB does.
 std::string ecefText() {
   double x = 0.0;
   double y = 0.0;

@@ -29,7 +29,7 @@ constexpr double kPatience_s = 30.0;
 
 class Diagnostics : public ::testing::Test {
  protected:
-  /// Changes a message, or has it left out (false).
+  /// Changes a message, or drops it (false).
   template <class Message>
   using Fault = std::function<bool(Message&)>;
 

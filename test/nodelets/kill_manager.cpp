@@ -1,4 +1,4 @@
-/// The manager is killed while the rover drives: roslaunch starts it again, and the estimate goes on from the
+/// The manager is killed while the rover drives: roslaunch starts it again, and the estimate resumes from the
 /// checkpoint.
 
 #include <gtest/gtest.h>

@@ -276,7 +276,7 @@ TEST_F(RvizPanel, AnEmergencyStopIsOneClickAndItsEndTwo) {
   expectCall("stop_supervisor/emergency_stop false");
 }
 
-/// Of 800 rows, window and status bar of rviz leave so many.
+/// Of 800 rows, this many remain after the window frame and rviz's status bar.
 TEST_F(RvizPanel, FitsASmallScreenWithAllItsButtons) {
   diagnostic_msgs::DiagnosticArray array;
   array.status.resize(6);

@@ -129,7 +129,7 @@ class JoiningTest(unittest.TestCase):
         self.assertEqual(self.chains(a_0=span(0, 100), a_1=odd), [("a_0",), ("a_1",)])
 
     def test_rare_topics_may_be_missing(self):
-        """Latched at the begin of the first part; too slow for a short last part."""
+        """Latched at the start of the first part; too slow for a short last part."""
         self.assertEqual(self.chains(a_0=span(0, 100, imu=1000, tf_static=1, fix=100), a_1=span(100, 102, imu=20)),
                          [("a_0", "a_1")])
 
@@ -228,7 +228,7 @@ class GroupsTest(unittest.TestCase):
     def test_without_truth_the_errors_cannot_be_told(self):
         drives = members("a", 1)
         sections = groups.sections_of({"a": drives}, {drives[0]: evaluated(StopTimes((), (), 0.0), enu_error_pct=None)})
-        self.assertIn("a: no error can be told of a0, for want of truth.", sections["accuracy"].notes)
+        self.assertIn("a: no errors for a0: no truth.", sections["accuracy"].notes)
         self.assertEqual(sections["intervals"].tables, [])
 
 
@@ -323,7 +323,7 @@ class ProgramTest(FolderTest):
         self.executable("drives/d.mcap", "")
         result = self.run_program(bags[0], "drives")
         self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[2:]][:4], ["b", "a", "c", "b:"])
-        self.assertIn("evaluate: drives/d.mcap is left out: a recording of ROS 2; convert it", result.stderr)
+        self.assertIn("evaluate: drives/d.mcap is skipped: a recording of ROS 2; convert it", result.stderr)
 
     def test_figures_of_the_file_have_all_their_digits(self):
         self.run_program("--out", "out", *self.bags("one", "threes"))

@@ -116,7 +116,7 @@ class CsvTest(ImportTestCase):
         self.assertEqual(imu.orientation_covariance[0], -1.0)
         self.assert_xyz(imu.angular_velocity, [10 * DEG, -20 * DEG, 30.0])
         self.assert_xyz(imu.linear_acceleration, [G, -0.5e-3 * G, 0.25])
-        self.assertIn("imu.csv: 1 row with NaN or empty fields left out, the first in line 3", self.said)
+        self.assertIn("imu.csv: 1 row with NaN or empty fields skipped, the first in line 3", self.said)
 
     def test_units_of_time(self):
         for unit, text in (("s", "1600000000.123456789"), ("ms", "1600000000123.456789"), ("us", "1600000000123456.789"),
@@ -223,7 +223,7 @@ class StampsTest(ImportTestCase):
     def test_a_row_that_is_cut_off_at_the_end_is_left_out(self):
         self.write("imu.csv", IMU + "1600000002.00,0.1,0.2")
         self.assertEqual(len(self.imported("--imu", "imu.csv")["/imu/data"]), 200)
-        self.assertIn("imu.csv:202: the last row is cut off: left out", self.said)
+        self.assertIn("imu.csv:202: the last row is cut off: skipped", self.said)
 
 
 class RefusalTest(ImportTestCase):
@@ -344,7 +344,7 @@ class KittiTest(ImportTestCase):
         self.make(interval_ms=100)
         os.remove(self.path("drive/oxts/data/0000000001.txt"))
         self.assertEqual(len(self.imported("drive/oxts")["/imu/data"]), 2)
-        self.assertIn("1 file of 3 stamps not there: left out", self.said)
+        self.assertIn("1 file of 3 stamps missing: skipped", self.said)
         self.assertIn("the IMU has 5.0 Hz, and slipnav wants 20 or more", self.said)
         os.remove(self.out)
         self.write("drive/oxts/data/0000000002.txt", "1 2 3")
@@ -451,8 +451,8 @@ class RtklibTest(ImportTestCase):
         self.assert_close([fix.latitude, fix.longitude, fix.altitude], [39.6, -79.9, 250])
         self.assert_close(fix.position_covariance, [4e-4, -1e-4, 0, -1e-4, 1e-4, 0, 0, 0, 9e-4])
         self.assertEqual([message.status.status for _, message in fixes[:3]], [2, 2, 0])
-        self.assertIn("X.POS: rows of quality 0, without a solution: 1 left out", self.said)
-        self.assertIn("X.POS: rows far off their neighbors: 1 left out", self.said)
+        self.assertIn("X.POS: rows of quality 0, without a solution: 1 skipped", self.said)
+        self.assertIn("X.POS: rows far off their neighbors: 1 skipped", self.said)
         fixes = self.imported("--imu", "imu.csv", "--gps", "X.POS")["/gps/fix"]
         self.assertEqual(len(fixes), 11)  # the filter judges its fixes itself
 
@@ -564,7 +564,7 @@ class DriveTest(ImportTestCase):
         self.export_all()
         self.write("truth.pos", self.pos_text())
         self.import_all("--truth", "truth.pos")
-        self.assertIn("truth.pos: rows far off their neighbors: 1 left out", self.said)
+        self.assertIn("truth.pos: rows far off their neighbors: 1 skipped", self.said)
         self.assert_same(self.evaluated(self.out), self.evaluated(self.drive, "--truth", self.path("truth.pos")))
 
     def pos_text(self):

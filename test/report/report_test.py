@@ -37,7 +37,7 @@ MOST_BYTES = 6_000_000
 MOST_BYTES_OF_PICTURES = 1_500_000
 MOST_SECONDS = 60.0  # for a drive of a minute on a machine that is busy; see doc/visualisation.md for what it takes
 THRESHOLD_M = 0.8
-LEAST_PIXELS = 30  # of pure colour; the edges of lines are blended
+LEAST_PIXELS = 30  # of pure color; the edges of lines are blended
 
 
 def write_forecasts(directory, start):

@@ -74,7 +74,7 @@ def outcome(stop_rate_pct=0.0, enu_error_pct=0.0, stretches=(), time_to_stop_s=N
 
 
 class PaperTest(unittest.TestCase):
-    """Each figure is rounded: percentages and metres to 0.01, distances to 1 m."""
+    """Each figure is rounded: percentages and meters to 0.01, distances to 1 m."""
 
     @staticmethod
     def rounding_pct(pct, distance_m):

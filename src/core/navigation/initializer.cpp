@@ -17,7 +17,7 @@ constexpr double kLevelStd_rad = 2.0 * kPi / 180.0;
 // The course of the drive is the heading except for side slip and mounting, however good the fixes are.
 constexpr double kLeastDriveHeadingStd_rad = 1.0 * kPi / 180.0;
 constexpr double kHeadingStdFactor = 3.0;
-// The drive goes on until its fixes determine the heading this well, or is accepted as is after this many times its
+// The drive continues until its fixes determine the heading this well, or is accepted as is after this many times its
 // usual length.
 constexpr double kHeadingGoal_rad = 2.0 * kPi / 180.0;
 constexpr double kLongestDrive = 5.0;

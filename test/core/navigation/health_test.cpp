@@ -47,7 +47,7 @@ TEST(HealthMonitor, SilentAndContradictingWheelsAreNoticed) {
   EXPECT_GE(health.alarms().at("wheels silent").first, silent_from);
 }
 
-/// A measurement that was rejected for long and is not made any more contradicts nothing.
+/// A measurement that was rejected for long and is no longer made contradicts nothing.
 TEST(HealthMonitor, WhatIsNotMeasuredContradictsNothing) {
   const Config config = driveConfig(6.0);
   const RecordedDrive drive = recordDrive(config);

@@ -190,7 +190,7 @@ TEST(StopSupervisor, AfterAStopTheOldForecastIsVoidAndThereIsTimeToDrive) {
   situations()[4].reach(rig);
   rig.during(1.0, [&rig] { rig.standing(1e-5); });
   EXPECT_EQ(rig.supervisor.status().reason, "no forecast since the last stop");
-  rig.forecast(0.0);  // the threshold is below what one metre costs
+  rig.forecast(0.0);  // the threshold is below what one meter costs
   EXPECT_EQ(rig.state(), kC);
   rig.during(4.6, [&rig] { rig.moving(); });
   EXPECT_EQ(rig.state(), kC);

@@ -43,7 +43,7 @@ class Pipeline {
   void push(const WheelMotion& wheels);
   /// Satellite position or velocity; after the initialization only positions, and only with `gnss.use: always`.
   void push(const AntennaFix& fix);
-  /// For the initialisation source `truth`.
+  /// For the initialization source `truth`.
   void setTruth(const NavigationState& truth, bool has_attitude);
 
   /// Where the estimate started, once it has.
