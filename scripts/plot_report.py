@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws what a run has left in its output directory: report.html, which needs nothing else, and its figures as PNG."""
+"""Plots the output directory of a run: report.html, which is self-contained, and its figures as PNG."""
 
 import argparse
 import os
@@ -9,7 +9,7 @@ import matplotlib
 
 matplotlib.use("Agg")  # no display needed
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from slipnav_report.page import write_report  # noqa: E402

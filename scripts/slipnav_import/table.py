@@ -44,7 +44,7 @@ def fields_of(line, separator):
 
 
 def separator_of(line):
-    """The separator that stands in a line; None for white space."""
+    """The separator used in a line; None for white space."""
     return next((separator for separator in SEPARATORS if separator in line), None)
 
 
@@ -53,7 +53,7 @@ def is_number(field):
 
 
 def is_word(field):
-    """Neither a number, nor a date, nor the place of one that is absent."""
+    """Neither a number, nor a date, nor a placeholder for one."""
     return not is_number(field) and not date_ns(field) and field.lower() not in ABSENT
 
 
@@ -70,13 +70,13 @@ def date_ns(field):
 
 
 def split_heading(heading):
-    """Name and unit of a column of a file; the unit stands in brackets or, if it is one, in parentheses."""
+    """Name and unit of a column of a file; the unit is in brackets or, if it is one, in parentheses."""
     match = re.fullmatch(r"(.*?)\s*\(([^()]*)\)", heading)
     return match.groups() if match and units.is_known(match.group(2)) else split_unit(heading)
 
 
 class Heading:
-    """What the columns of a file are called, and in which units."""
+    """Names and units of the columns of a file."""
 
     def __init__(self, path, names):
         self.path = path
@@ -84,10 +84,10 @@ class Heading:
         self.names = [split_heading(name) for name in names]
 
     def place(self, column, where):
-        """Index of a column, and the unit that counts."""
+        """Index of a column, and the unit that applies."""
         if column.number is not None:
             if not 1 <= column.number <= len(self.names):
-                raise Failure(f"{where}: {self.path} has {len(self.names)} columns, and no {column.name}")
+                raise Failure(f"{where}: {self.path} has {len(self.names)} columns, but no {column.name}")
             return column.number - 1, column.unit or self.known_unit(column.number - 1)
         places = [place for place, (name, _) in enumerate(self.names) if column.name in (name, self.whole[place])]
         if len(places) != 1:
@@ -108,8 +108,8 @@ class Heading:
             return f"{where}: {self.path} has {count} columns '{column.name}'; name one by its number, as #2"
         names = [name for name, _ in self.names]
         if not any(is_word(name) for name in names):
-            return (f"{where}: {self.path} has no line that names its columns, so no '{column.name}'; "
-                    f"name columns by their number, as {column.key}=#1")
+            return (f"{where}: {self.path} has no header line, so no '{column.name}'; "
+                    f"name columns by number, as {column.key}=#1")
         return (f"{where}: {self.path} has no column '{column.name}'; it has {', '.join(names)}"
                 f"{nearest(column.name, names)}")
 
@@ -130,7 +130,7 @@ class Table:
         rows = self._rows(columns, kinds, where)
         self._read(rows, columns)
         if not self.stamps:
-            raise Failure(f"{path}: has no row that can be used")
+            raise Failure(f"{path}: has no usable row")
         self.values = np.array(self._values, dtype=float).reshape(len(self.stamps), len(columns))
 
     def unit(self, place):
@@ -138,7 +138,7 @@ class Table:
         return self._units[place]
 
     def _rows(self, columns, kinds, where):
-        """(line number, fields) of all rows of data; finds out about header and separator first."""
+        """(line number, fields) of all data rows; detects header and separator first."""
         lines = open_lines(self.path)
         data = [(number, line) for number, line in lines if line.lstrip()[0] not in "#%"]
         if not data:
@@ -202,7 +202,7 @@ class Table:
     def _number(self, field, i, number):
         value = float(field) if NUMBER.fullmatch(field) else math.inf
         if not math.isfinite(value):
-            comma = " (a decimal comma? write points)" if re.fullmatch(r"-?\d+,\d+", field) else ""
+            comma = " (a decimal comma? use points)" if re.fullmatch(r"-?\d+,\d+", field) else ""
             raise Failure(f"{self.path}:{number}: '{field}' in column '{self._names[i]}' is not a number{comma}")
         factor = self._units[i][1]
         return value if factor is None else value * factor
@@ -230,7 +230,7 @@ def decimal_ns(field, seconds, where):
 def usable_stamp(stamp, where):
     """A stamp that a recording can hold."""
     if stamp <= 0:
-        raise Failure(f"{where}: the stamp is {seconds_text(stamp)} s, and a recording holds only times above zero: "
+        raise Failure(f"{where}: the stamp is {seconds_text(stamp)} s, but a recording holds only times above zero: "
                       "shift all by --shift-time 1000000000")
     if stamp >= END_OF_TIME_NS:
         raise Failure(f"{where}: the stamp is {seconds_text(stamp)} s, beyond what ROS counts: is the unit of t right?")

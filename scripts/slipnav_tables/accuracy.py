@@ -1,4 +1,4 @@
-"""Tables I and II: drives like those of the paper, over seeds, beside the paper's rows."""
+"""Tables I and II: drives like those of the paper, over seeds, next to the paper's rows."""
 
 import numpy as np
 
@@ -90,7 +90,7 @@ def mean_stop_rate(rates):
 
 def lower_by_text(name, periodic, autonomous):
     if not periodic or autonomous is None:
-        return f"{name}: cannot be told"
+        return f"{name}: unknown"
     return f"{name}: {periodic:.2f} % → {autonomous:.2f} %, lower by {100 * (1 - autonomous / periodic):.0f} %"
 
 

@@ -201,7 +201,7 @@ class GroupsTest(unittest.TestCase):
         self.assertEqual(section.data["real"]["groups"]["soft"]["intervals_s"], [5.0, 7.0, 6.0])
         self.assertIsNotNone(section.data["real"]["anova_p"])
         self.assertIn(groups.DOUBT, section.notes)
-        self.assertIn(f"{groups.TITLES['forecast']}: cannot be told of any group.", section.notes)
+        self.assertIn(f"{groups.TITLES['forecast']}: unknown for every group.", section.notes)
 
     def test_simulated_drives_stand_beside_and_change_no_test(self):
         grounds = {"firm": members("f", 2), "soft": members("s", 2)}
@@ -323,7 +323,7 @@ class ProgramTest(FolderTest):
         self.executable("drives/d.mcap", "")
         result = self.run_program(bags[0], "drives")
         self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[2:]][:4], ["b", "a", "c", "b:"])
-        self.assertIn("evaluate: drives/d.mcap is skipped: a recording of ROS 2; convert it", result.stderr)
+        self.assertIn("evaluate: drives/d.mcap is skipped: a ROS 2 recording; convert it", result.stderr)
 
     def test_figures_of_the_file_have_all_their_digits(self):
         self.run_program("--out", "out", *self.bags("one", "threes"))
@@ -376,10 +376,10 @@ class ProgramTest(FolderTest):
         bags = self.bags("one", "two")
         os.makedirs(self.path("empty"))
         for arguments, words in ((["--sepparate"], "unknown option '--sepparate', did you mean '--separate'?"),
-                                 (["--report"], "--report needs --out"), (["--odometry", "x"], "for one recording alone"),
+                                 (["--report"], "--report needs --out"), (["--odometry", "x"], "for a single recording"),
                                  (["--group", "x"], "'x' is not NAME=GLOB"), (["--group", "x=y*"], "in the group 'x'"),
                                  (["--config"], "--config needs a value"), (["--out"], "--out needs a value"),
-                                 (["--simulated", "one.bag"], "'one.bag' is no tables.json of ./run tables"),
+                                 (["--simulated", "one.bag"], "'one.bag' is not a tables.json of ./run tables"),
                                  (["empty"], "no recording (*.bag) in the folder 'empty'"), (["--jobs", "0"], "--jobs")):
             result = self.run_program(*bags, *arguments)
             self.assertEqual((result.returncode, result.stdout), (2, ""), arguments)
@@ -547,7 +547,7 @@ class ClusterTest(DrivesTest):
         output, errors = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 0, errors)
         self.assertRegex(errors, r"worker tcp://127\.0\.0\.1:\d+ is lost, [12] left\n")
-        self.assertEqual(errors.count("its worker was lost; it is run again"), 1, errors)
+        self.assertEqual(errors.count("its worker was lost; it is rerun"), 1, errors)
         self.assertEqual(len(self.read("calls").splitlines()), len(self.bags) + 1)
         here = self.run_program("--out", "here", *self.bags)
         self.assertEqual(output, here.stdout)

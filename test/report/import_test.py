@@ -236,7 +236,7 @@ class RefusalTest(ImportTestCase):
         for text, wanted in (
                 ("", "imu.csv: is empty"),
                 ("# nothing\n", "imu.csv: has no rows"),
-                ("t,wx,wy,wz,ax,ay,az\n", "imu.csv: has no row that can be used"),
+                ("t,wx,wy,wz,ax,ay,az\n", "imu.csv: has no usable row"),
                 ("t,wx,wy,wz,ax,ay,az\n" + row + f"{T0},1,2\n" + row, "imu.csv:3: 3 fields instead of 7"),
                 ("t,wx,wy,wz,ax,ay,az\n" + row + f"{T0},1,2,3,4,5,6,7\n", "imu.csv:3: 8 fields instead of 7"),
                 ("t,wx,wy,wz,ax,ay,az\n" + row + f"{T0},1,2,x3,4,5,6\n", "imu.csv:3: 'x3' in column 'wz' is not a number"),
@@ -259,8 +259,8 @@ class RefusalTest(ImportTestCase):
                 ("t=t,wx=wx[m/s]" + rest, "wx: unit 'm/s' is not one of rad/s, deg/s"),
                 ("t=t" + rest, "--imu-columns: lacks wx"),
                 ("t=t,wx=wx,vx=wx" + rest, "'vx' is not one of t, wx, wy, wz, ax, ay, az"),
-                ("t=t,wx=wx,wx=wx" + rest, "'wx' comes twice"),
-                ("t=t,wx=#9" + rest, "imu.csv has 7 columns, and no #9"),
+                ("t=t,wx=wx,wx=wx" + rest, "'wx' is given twice"),
+                ("t=t,wx=#9" + rest, "imu.csv has 7 columns, but no #9"),
                 ("t=t,wx" + rest, "'wx' is not KEY=COLUMN[UNIT]"),
                 ("t=t,wx=[rad/s]" + rest, "names no column")):
             self.assertIn(wanted, self.imu(IMU, "--imu-columns", columns), columns)
@@ -345,7 +345,7 @@ class KittiTest(ImportTestCase):
         os.remove(self.path("drive/oxts/data/0000000001.txt"))
         self.assertEqual(len(self.imported("drive/oxts")["/imu/data"]), 2)
         self.assertIn("1 file of 3 stamps missing: skipped", self.said)
-        self.assertIn("the IMU has 5.0 Hz, and slipnav wants 20 or more", self.said)
+        self.assertIn("the IMU has 5.0 Hz, and slipnav needs 20 or more", self.said)
         os.remove(self.out)
         self.write("drive/oxts/data/0000000002.txt", "1 2 3")
         self.assertIn("0000000002.txt:1: 3 fields instead of 30", self.refused("drive"))
@@ -419,7 +419,7 @@ accelerometer_random_walk: 3.0e-3
         self.assertIn("has 200.0 Hz, and sensor.yaml says 400 Hz", self.said)
         os.remove(self.out)
         for text, wanted in (("T_BS: {data: [1, 2]}\n", "T_BS is no matrix of 4 x 4"),
-                             ("T_BS: {data: [2,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}\n", "T_BS holds no rotation"),
+                             ("T_BS: {data: [2,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}\n", "T_BS does not contain a rotation"),
                              ("rate_hz: fast\n", "rate_hz is not a number"), ("a: b: c\n", "is not YAML")):
             self.write("seq/mav0/imu0/sensor.yaml", text)
             self.assertIn(wanted, self.refused("seq"))
@@ -487,7 +487,7 @@ class OtherRecordingsTest(ImportTestCase):
 
     def test_a_bag_needs_no_import(self):
         self.write("a.bag", "")
-        self.assertIn("is a recording already", self.refused("a.bag"))
+        self.assertIn("is already a recording", self.refused("a.bag"))
 
 
 @unittest.skipUnless(os.access(os.path.join(PROGRAMS, "evaluate"), os.X_OK), "needs slipnav's programs")

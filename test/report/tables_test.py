@@ -133,7 +133,7 @@ class StatisticsTest(unittest.TestCase):
 
     def test_text_of_p(self):
         self.assertEqual([statistics.p_text(p) for p in (None, 0.00009, 0.0049)],
-                         ["cannot be told", "< 0.0001", "0.0049"])
+                         ["unknown", "< 0.0001", "0.0049"])
 
 
 class ReadingTest(unittest.TestCase):
