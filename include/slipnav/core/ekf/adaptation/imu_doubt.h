@@ -25,7 +25,7 @@ class ImuDoubt {
   /// @param factor_std initial factor on the standard deviations; 1: the data sheet is exact and stays so
   explicit ImuDoubt(double factor_std);
 
-  /// @param normalized r/√S before the update; @param direction_n unit vector along which the velocity was measured
+  /// The innovation is r/√S before the update. @param direction_n unit vector along which the velocity was measured
   void compare(ConstraintAxis axis, double normalised, const Vector3& direction_n);
 
   /// Density beyond the known one, relative to it; 0 or more.
