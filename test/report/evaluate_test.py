@@ -222,7 +222,7 @@ class GroupsTest(unittest.TestCase):
         grounds = {"firm": members("f", 2)}
         outcomes = dict(zip(grounds["firm"], (evaluated(StopTimes((), (), 60.0)), evaluated(StopTimes((9.0,), (), 60.0)))))
         section = groups.sections_of(grounds, outcomes)["intervals"]
-        self.assertIn(f"{groups.TITLES['real']}, firm: not to be told of f0, which have no two stops.", section.notes)
+        self.assertIn(f"{groups.TITLES['real']}, firm: unknown for f0, which have no two stops.", section.notes)
         self.assertTrue(any("nothing to compare" in note for note in section.notes))
 
     def test_without_truth_the_errors_cannot_be_told(self):
@@ -355,7 +355,7 @@ class ProgramTest(FolderTest):
     def test_what_is_killed_is_run_once_more(self):
         result = self.run_program(*self.bags("one", "lost", "lost_again"))
         self.assertEqual(result.returncode, 1)
-        self.assertIn("lost: evaluate was killed; it is run again\n", result.stderr)
+        self.assertIn("lost: evaluate was killed; it is rerun\n", result.stderr)
         self.assertIn("lost: consistent", result.stdout)
         self.assertIn("failed: evaluate was killed", result.stdout)
         self.assertEqual(sum("lost_again" in call for call in self.read("calls").splitlines()), 2)

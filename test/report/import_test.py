@@ -246,7 +246,7 @@ class RefusalTest(ImportTestCase):
                 ("t,wx,wy,wz,ax,ay,az\n0,1,2,3,4,5,6\n", "imu.csv:2: the stamp is 0.000000000 s"),
                 ("t,wx,wy,wz,ax,ay,az\n1e18,1,2,3,4,5,6\n", "beyond what ROS counts: is the unit of t right?"),
                 ("t,wx,wy,wz,ax,ay\n1,1,2,3,4,5\n", "imu.csv has no column 'az'; it has t, wx, wy, wz, ax, ay"),
-                ("1,1,2,3,4,5,6\n", "imu.csv has no line that names its columns"),
+                ("1,1,2,3,4,5,6\n", "imu.csv has no header line"),
                 ("t,wx,wy,wz,ax,ay,ay\n1,1,2,3,4,5,6\n", "imu.csv has 2 columns 'ay'"),
                 ("t [fortnights],wx [rpm],wy,wz,ax,ay,az\n1,1,2,3,4,5,6\n", "wx: unit 'rpm' is not one of rad/s, deg/s"),
                 ("t\0", "imu.csv: is not a text file")):
@@ -286,9 +286,9 @@ class RefusalTest(ImportTestCase):
         self.write("t.csv", f"t,lat,lon,h\n{T0},-179.9,39.6,250\n")
         self.assertIn("t.csv:2: latitude or longitude is out of range", self.refused("--imu", "imu.csv", "--truth", "t.csv"))
         self.write("t.csv", "t,lat,lon,h\n1500000000,39.6,-79.9,250\n")
-        self.assertIn("t.csv and imu.csv have no time in common", self.refused("--imu", "imu.csv", "--truth", "t.csv"))
+        self.assertIn("t.csv and imu.csv do not overlap in time", self.refused("--imu", "imu.csv", "--truth", "t.csv"))
         self.write("t.tum", f"{T0} 1 2 3 1 1 1 1\n")
-        self.assertIn("t.tum:1: the quaternion has not the length 1", self.refused("--imu", "imu.csv", "--truth", "t.tum"))
+        self.assertIn("t.tum:1: the quaternion does not have length 1", self.refused("--imu", "imu.csv", "--truth", "t.tum"))
 
     def test_other_arguments(self):
         self.write("imu.csv", IMU)
@@ -296,7 +296,7 @@ class RefusalTest(ImportTestCase):
         self.write("list.yaml", "[1, 2]\n")
         self.write("empty/readme", "")
         for arguments, wanted in ((["x.yaml"], "x.yaml: unknown key 'imuu'; did you mean imu?"),
-                                  (["list.yaml"], "list.yaml: holds no keys"),
+                                  (["list.yaml"], "list.yaml: has no keys"),
                                   (["missing.yaml"], "missing.yaml: cannot be read"),
                                   (["empty"], "empty: is neither KITTI raw"),
                                   (["--truth", "imu.csv"], "has no column 'lat'"),
@@ -338,7 +338,7 @@ class KittiTest(ImportTestCase):
         messages = self.imported("drive", "--oxts-speed")
         self.assertEqual(messages["/wheel_odometry"][0][1].twist.twist.linear.x, 3.5)
         self.assertEqual(messages["/wheel_odometry"][0][1].child_frame_id, "oxts_speed")
-        self.assertIn("speed of its inertial and satellite navigation, not of wheels", self.printed)
+        self.assertIn("speed from its inertial and satellite navigation, not from wheels", self.printed)
 
     def test_what_is_missing_is_named(self):
         self.make(interval_ms=100)
@@ -418,7 +418,7 @@ accelerometer_random_walk: 3.0e-3
         self.imported("seq")
         self.assertIn("has 200.0 Hz, and sensor.yaml says 400 Hz", self.said)
         os.remove(self.out)
-        for text, wanted in (("T_BS: {data: [1, 2]}\n", "T_BS is no matrix of 4 x 4"),
+        for text, wanted in (("T_BS: {data: [1, 2]}\n", "T_BS is not a matrix of 4 x 4"),
                              ("T_BS: {data: [2,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}\n", "T_BS does not contain a rotation"),
                              ("rate_hz: fast\n", "rate_hz is not a number"), ("a: b: c\n", "is not YAML")):
             self.write("seq/mav0/imu0/sensor.yaml", text)
