@@ -1,4 +1,4 @@
-/// Each nodelet in turn is unloaded while the rover drives, and loaded again a moment later: the estimate continues, and
+/// Each nodelet in turn is unloaded while the rover drives, and reloaded a moment later: the estimate continues, and
 /// its covariance covers what was missed.
 
 #include <gtest/gtest.h>
