@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws what a run has left in its output directory: report.html, which needs nothing else, and its figures as PNG."""
+"""Plots the output directory of a run: report.html, which is self-contained, and its figures as PNG."""
 
 import argparse
 import os
@@ -9,7 +9,7 @@ import matplotlib
 
 matplotlib.use("Agg")  # no display needed
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from slipnav_report.page import png_of, write_report  # noqa: E402
@@ -26,7 +26,7 @@ def write_stop(run, number):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("directory", help="output directory of a run, with timeline.csv in it")
-    parser.add_argument("--figure", type=int, metavar="STOP", help="in their place the paper's figure of one stop, by its "
+    parser.add_argument("--figure", type=int, metavar="STOP", help="instead of them the paper's figure of one stop, by its "
                         "number from 1, as stop_STOP.png")
     arguments = parser.parse_args()
     try:

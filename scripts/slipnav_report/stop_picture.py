@@ -10,7 +10,7 @@ from .plotting import band, has_values, legend_beside, level, say_why_empty, sha
 
 SIGMAS = 2.0  # of the slip band, as the paper draws it
 WINDOW_S = 15.0  # of slip that a forecast learns from: the paper's, and the default of forecast.window_s
-BEFORE_S, AFTER_S = 5.0, 10.0  # shown before the stretch and after the stop
+BEFORE_S, AFTER_S = 5.0, 10.0  # shown before the drive and after the stop
 
 
 class Stop:
@@ -25,7 +25,7 @@ class Stop:
         self.forecast = announcement(run.forecasts, self.driving_since, self.begin)
 
     def rows(self, table):
-        """Of the table, those of the forecast; none where there is none."""
+        """Rows of the table that belong to the forecast; empty if there is no forecast."""
         return np.flatnonzero(table["t"] == self.forecast) if self.forecast is not None else np.zeros(0, int)
 
 
@@ -35,8 +35,8 @@ def first_motion(run):
 
 
 def announcement(table, since, until):
-    """When the forecast was made from which on all of the stretch said that a stop was due; the last one of the stretch
-    where none did; None where none was made."""
+    """Time of the first forecast from which on every forecast before the stop predicted a stop; the last forecast before
+    it if none did; None if there was no forecast."""
     made, first = np.unique(table["t"], return_index=True)
     inside = (made >= since) & (made < until)
     if not inside.any():
@@ -48,7 +48,7 @@ def announcement(table, since, until):
 
 
 def realized(run, stop):
-    """Horizontal error over the stretch: since its begin, and all of it."""
+    """Horizontal error over the drive before the stop: grown since its start, and total."""
     time = run.timeline["t"]
     errors = run.errors()[:2]
     shown = (time >= stop.driving_since) & (time <= stop.end + AFTER_S) & np.isfinite(errors[0])
@@ -77,7 +77,7 @@ def draw_slip(axes, run, stop):
         band(axes, time, mean - spread, mean + spread, color=palette.SAFE, alpha=0.4, label=f"prediction ±{SIGMAS:.0f}σ")
         axes.plot(time, mean, color=palette.ESTIMATE, lw=1.5, label="predicted mean")
     elif not has_values(run.timeline["slip"]):
-        say_why_empty(axes, "no slip: the wheels never turned fast enough to tell it")
+        say_why_empty(axes, "no slip: the wheels never turned fast enough to compute it")
     axes.set_ylabel("(b) slip ratio")
 
 
@@ -136,5 +136,5 @@ def stop_figure(run, number):
     panels[0].set_xlim(stop.driving_since - BEFORE_S, last)
     forecast = "no forecast before it" if stop.forecast is None else f"forecast at {stop.forecast:.1f} s"
     panels[0].set_title(f"stop {number} at {stop.begin:.1f} s, {forecast}", fontsize=10)
-    panels[-1].set_xlabel("time [s]; grey: stops")
+    panels[-1].set_xlabel("time [s]; gray: stops")
     return figure

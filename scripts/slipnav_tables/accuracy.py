@@ -1,4 +1,4 @@
-"""Tables I and II: drives like those of the paper, by its method and by slipnav, over seeds, beside the paper's rows."""
+"""Tables I and II: drives like those of the paper, by its method and by slipnav, over seeds, next to the paper's rows."""
 
 import os
 from dataclasses import replace
@@ -24,13 +24,13 @@ COLUMNS_2 = (
 ASSUMED_THRESHOLD_M = 2.0  # of Table II, which gives none; the one of Rough_B, which is Test5 of Table I
 METHOD = "the paper's method"
 BY_METHOD = "by_the_papers_method"  # its figures in tables.json
-DRIVEN = ("One drive of the paper each; beside it simulated drives: by the paper's method (config/paper.yaml) and by slipnav, "
+DRIVEN = ("One drive of the paper each; next to it simulated drives: by the paper's method (config/paper.yaml) and by slipnav, "
           "median over the seeds, in brackets the largest.")
 SIMULATED = "slipnav"
 
 
 def configuration_of_method():
-    """config/paper.yaml beside the scripts, in the source tree or as installed."""
+    """config/paper.yaml next to the scripts, in the source tree or as installed."""
     scripts = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     installed = os.path.join(scripts, "..", "..", "share", "slipnav", "config", "paper.yaml")
     return os.path.normpath(installed if os.path.exists(installed) else
@@ -66,7 +66,7 @@ def drives_2(row, options):
 
 
 def rows_beside(outcomes, drives_by, columns, heads):
-    """([the cells of each kind of drive], {kind: summary}); `heads`: how many cells come before."""
+    """([the cells of each kind of drive], {kind: summary}); `heads`: number of cells before them."""
     summaries = {whose: summary(outcomes, drives, columns) for whose, drives in drives_by.items()}
     rows = [[""] * heads + [count_text(whose, outcomes, drives_by[whose])] + simulated_cells(figures, columns)
             for whose, figures in summaries.items()]
@@ -120,7 +120,7 @@ class Table1:
 
 
 def mean_stop_rates(rate_of):
-    """Of the periodic and of the autonomous rows; None where one is not known."""
+    """Of the periodic and of the autonomous rows; None if one is unknown."""
     rates = [[rate_of(row) for row in paper.TABLE_2 if row.policy == policy]
              for policy in (paper.PERIODIC, paper.AUTONOMOUS)]
     return [None if None in of_policy else float(np.mean(of_policy)) for of_policy in rates]
@@ -128,7 +128,7 @@ def mean_stop_rates(rate_of):
 
 def lower_by_text(name, periodic, autonomous):
     if not periodic or autonomous is None:
-        return f"{name}: cannot be told"
+        return f"{name}: unknown"
     return f"{name}: {periodic:.2f} % → {autonomous:.2f} %, lower by {100 * (1 - autonomous / periodic):.0f} %"
 
 
@@ -152,7 +152,7 @@ class Table2:
             (METHOD, lambda row: by_paper[row.name]["stop_rate_pct"]["median"]),
             (SIMULATED, lambda row: data[row.name]["stop_rate_pct"]["median"])))
         notes = [
-            f"{DRIVEN} Autonomous stops at ε = {ASSUMED_THRESHOLD_M:g} m, which the paper says for Rough_B alone.",
+            f"{DRIVEN} Autonomous stops at ε = {ASSUMED_THRESHOLD_M:g} m, which the paper gives only for Rough_B.",
             f"Mean stop rate of the periodic rows → of the autonomous rows. {compared}.",
         ]
         return Section("Table II: periodic and autonomous stops", [table], notes,

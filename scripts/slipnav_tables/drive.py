@@ -1,4 +1,4 @@
-"""One simulated drive: what to simulate, and what is read from the files that it leaves."""
+"""One simulated drive: what to simulate, and what is read from its files."""
 
 import csv
 import json
@@ -15,7 +15,7 @@ from .paper import AUTONOMOUS
 
 @dataclass(frozen=True)
 class Drive:
-    """Drives that are equal are driven once, whoever asks for them."""
+    """Equal drives are run once, whoever asks for them."""
 
     terrain: str
     distance_m: float
@@ -48,7 +48,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class Stretch:
-    """Driving between stops, from the begin of the route to the first, or from the last to the end of the drive."""
+    """Driving between stops, from the start of the route to the first, or from the last to the end of the drive."""
 
     duration_s: float
     growth_m: Optional[float]  # largest horizontal length of the change of the error since its begin
@@ -69,7 +69,7 @@ class Outcome:
 
 
 def read_outcome(drive, directory):
-    """Raises OSError, ValueError or KeyError when the files are not there or not what they should be."""
+    """Raises OSError, ValueError or KeyError if the files are missing or malformed."""
     with open(os.path.join(directory, "metrics.json"), encoding="utf-8") as file:
         metrics = json.load(file)
     stretches, time_to_stop_s = [], None
@@ -121,7 +121,7 @@ def growth(error):
 
 
 def probed_time_to_stop(timeline, forecasts, after_s):
-    """What the first forecast says that is made at least so long after the end of the first stop."""
+    """The first forecast made at least this long after the end of the first stop."""
     times = probed_times(timeline, forecasts, after_s)
     if not times:
         raise ValueError("the rover did not stop")

@@ -1,5 +1,5 @@
 #pragma once
-/// Makes the forecasts of a run and keeps what they say.
+/// Makes the forecasts of a run and records them.
 
 #include <functional>
 #include <optional>
@@ -18,14 +18,14 @@ class ForecastRecorder {
 
   explicit ForecastRecorder(const Config& config);
 
-  /// The estimate begins anew.
+  /// The estimate restarts.
   void clear();
   /// Takes each estimate of the filter in order.
   void push(const Estimate& estimate, const ErrorCovariance& P, const Sink& sink);
 
   const std::vector<ForecastRow>& errorRows() const { return errors_; }
   const std::vector<SlipForecastRow>& slipRows() const { return slips_; }
-  /// What each forecast took [ms].
+  /// Computing time of each forecast [ms].
   const std::vector<double>& times_ms() const { return times_ms_; }
 
  private:

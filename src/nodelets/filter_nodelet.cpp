@@ -38,7 +38,7 @@ namespace slipnav {
 
 namespace {
 
-/// [s] without a step of the mechanisation.
+/// [s] without a step of the mechanization.
 constexpr double kStepSilence_s = 1.0;
 
 }  // namespace
@@ -121,7 +121,7 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
-  /// The estimate ends; a new start is looked for.
+  /// Ends the estimate; the search for a new start begins.
   void end() {
     started_ = has_steps_ = lost_ = false;
     engine_->reset();
@@ -162,10 +162,10 @@ class FilterNodelet : public CoreNodelet {
 
   static bool isBeginning(const InsSteps& steps) { return steps.epoch == 0 && steps.steps.front().sequence == 0; }
 
-  /// This nodelet was loaded anew: the steps from the initial state on are gone.
+  /// This nodelet was reloaded: the steps from the initial state on are gone.
   void requestStart() {
     if (!lost_) {
-      NODELET_WARN("the mechanisation is ahead of this filter, which asks for a new start");
+      NODELET_WARN("the mechanization is ahead of this filter, which requests a new start");
     }
     lost_ = true;
     const auto message = boost::make_shared<std_msgs::UInt32>();
@@ -173,9 +173,9 @@ class FilterNodelet : public CoreNodelet {
     request_publisher_.publish(message);
   }
 
-  /// The mechanisation was loaded anew: its first steps are void, and it goes on from the filter's state.
+  /// The mechanization was reloaded: its first steps are void, and it resumes from the filter's state.
   void restartMechanisation() {
-    NODELET_WARN("the mechanisation begins anew");
+    NODELET_WARN("the mechanization restarts");
     gate_.clear();
     look_ahead_.forgetSteps();
     wheels_->recount();
@@ -191,7 +191,7 @@ class FilterNodelet : public CoreNodelet {
     if (!problem.empty()) {
       ++rejected_;
       health_->note(problem, engine_->state().stamp);
-      NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s left out: %s", message->header.stamp.toSec(),
+      NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s rejected: %s", message->header.stamp.toSec(),
                             problem.c_str());
     }
     if (!wheels_->remark().empty()) {
@@ -249,9 +249,9 @@ class FilterNodelet : public CoreNodelet {
   double tickInterval_s() const override { return 0.5 * kPatience_s; }
   void onTick() override { proceed(); }
 
-  /// Works off what has become certain, and tells the mechanisation.
+  /// Processes what has become certain, and informs the mechanization.
   void proceed() {
-    if (!has_steps_) {  // the mechanisation may be loaded later
+    if (!has_steps_) {  // the mechanization may be loaded later
       return;
     }
     gate_.release(
@@ -299,7 +299,7 @@ class FilterNodelet : public CoreNodelet {
       throw std::invalid_argument("there is no estimate yet");
     }
     takeCorrection(engine_->place(toPlacement(request, estimates_->frame(), engine_->state(), lever_imu_to_base_b_)));
-    response.message = "the estimate is put there";
+    response.message = "the estimate was moved";
   }
 
   void saveCheckpoint(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -312,8 +312,8 @@ class FilterNodelet : public CoreNodelet {
     const bool has_wheels = wheels_ && wheels_->messages() > 0;
     status.summary(has_steps_ && has_wheels ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
                    !started_     ? "waiting for the initial state"
-                   : lost_       ? "loaded anew, waiting for a new start"
-                   : !has_steps_ ? "waiting for the mechanisation"
+                   : lost_       ? "reloaded, waiting for a new start"
+                   : !has_steps_ ? "waiting for the mechanization"
                    : has_wheels  ? "running"
                                  : "no wheel samples");
     if (!engine_) {
@@ -335,16 +335,16 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
-  /// The worst first. Where steps are missing the cause stands in the status of Ins, and nothing here is of now.
+  /// Worst first. If steps are missing the cause is in the status of Ins, and nothing here is current.
   void diagnoseInputs(diagnostic_updater::DiagnosticStatusWrapper& status) const {
     using diagnostic_msgs::DiagnosticStatus;
     const std::string failure = wheels_->failure(clocks());
     if (!failure.empty()) {
       status.summary(DiagnosticStatus::ERROR, failure);
     } else if (!wheels_->problem().empty()) {
-      status.mergeSummary(DiagnosticStatus::WARN, "wheel message left out: " + wheels_->problem());
+      status.mergeSummary(DiagnosticStatus::WARN, "wheel message rejected: " + wheels_->problem());
     } else if (has_steps_ && steps_watch_.isSilent(clocks())) {
-      status.summary(DiagnosticStatus::STALE, "the mechanisation is silent");
+      status.summary(DiagnosticStatus::STALE, "the mechanization is silent");
     }
   }
 

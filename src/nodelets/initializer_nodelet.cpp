@@ -2,7 +2,7 @@
 ///
 /// In: imu/data, joint_states or wheel_odometry, gps/fix, gps/velocity; hand_over, start_request. Out, latched:
 /// initial_state, initialization, TF map → odom.
-/// Services: initialise, reset.
+/// Services: `initialise`, reset.
 
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <sensor_msgs/Imu.h>
@@ -67,7 +67,7 @@ class InitializerNodelet : public CoreNodelet {
   std::string usualThread() const override { return kNavigationThread; }
 
   void subscribe(const Config& config) override {
-    listen<StartState>(kHandOverTopic, &InitializerNodelet::onHandOver);  // first: it says whether to start at all
+    listen<StartState>(kHandOverTopic, &InitializerNodelet::onHandOver);  // first: it decides whether to start at all
     listen<std_msgs::UInt32>(kStartRequestTopic, &InitializerNodelet::onStartRequest);
     listen<sensor_msgs::Imu>(config.topics.imu, &InitializerNodelet::onImu);
     listen<sensor_msgs::JointState>(config.topics.joint_states, &InitializerNodelet::onWheels<sensor_msgs::JointState>);
@@ -107,7 +107,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Loaded beside an estimate that is running: there is nothing to look for, unless it is of before the clock went
+  /// Loaded while an estimate is running: there is nothing to search for, unless it is from before the clock went
   /// back.
   void takeOver(Nanoseconds stamp) {
     if (stamp == 0) {
@@ -122,10 +122,10 @@ class InitializerNodelet : public CoreNodelet {
     done_ = true;
     const InitialState state = fromMessage(*running);
     resumption_->offer(state);
-    publishStart(state, running, "went on with the estimate that was running");
+    publishStart(state, running, "continued with the running estimate");
   }
 
-  /// The filter was loaded anew.
+  /// The filter was reloaded.
   void onStartRequest(const std_msgs::UInt32::ConstPtr& message) {
     if (!done_ || message->data != start_) {
       return;
@@ -138,7 +138,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Goes on from where an estimate ended, if that is known and good for it.
+  /// Resumes from where an estimate ended, if that is known and usable.
   void resume(Nanoseconds stamp) {
     if (done_ || stamp == 0 || !resumption_->isPossible()) {
       return;
@@ -147,7 +147,7 @@ class InitializerNodelet : public CoreNodelet {
       const InitialState initial = resumption_->resume(stamp);
       done_ = true;
       const double unwatched_s = std::round(10.0 * resumption_->unwatched()) / 10.0;
-      announce(initial, "resumed " + formatNumber(unwatched_s) + " s after the last state known");
+      announce(initial, "resumed " + formatNumber(unwatched_s) + " s after the last known state");
     } catch (const std::invalid_argument& error) {
       NODELET_WARN("a new start: %s", error.what());
     }
@@ -165,7 +165,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Of a message that was left out; a start may be waiting for nothing else.
+  /// About a rejected message; the start may be waiting for nothing else.
   void noteProblem(const std::string& problem) {
     if (!problem.empty()) {
       inputs_->note(problem, fromSeconds(now()));
@@ -195,7 +195,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Clocks that do not agree are nobody's to correct, but worth a word.
+  /// Clocks that disagree cannot be corrected here, but are worth reporting.
   void watch(const std::string& topic, Nanoseconds stamp) {
     const std::string problem = stamps_->note(topic, stamp);
     noteProblem(problem);
@@ -260,7 +260,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Ends the estimate and looks for a start anew.
+  /// Ends the estimate and searches for a new start.
   void searchAnew() {
     initializer_->reset();
     resumption_->forget();
@@ -323,7 +323,7 @@ class InitializerNodelet : public CoreNodelet {
 
   std::optional<ImuInput> imu_input_;
   HealthReport alarms_;
-  std::optional<HealthMonitor> inputs_;  ///< what was wrong with messages, in real time
+  std::optional<HealthMonitor> inputs_;  ///< problems with messages, in real time
   std::string fix_topic_;
   Nanoseconds fix_stamp_offset_ = 0;
   std::optional<WheelInput> wheel_input_;
@@ -334,11 +334,11 @@ class InitializerNodelet : public CoreNodelet {
   std::optional<Resumption> resumption_;
   TrustedStamp trusted_;
   std::optional<StampWatch> stamps_;
-  StartState::ConstPtr running_;  ///< of the estimate that was there before this nodelet
-  std::uint32_t session_ = 0;     ///< restarts of the IMU's clock
-  std::uint32_t starts_ = 0;      ///< initial states announced, and searches begun anew
+  StartState::ConstPtr running_;  ///< of the estimate that was running before this nodelet
+  std::uint32_t session_ = 0;     ///< restarts of the IMU clock
+  std::uint32_t starts_ = 0;      ///< initial states announced, and searches restarted
   std::uint32_t start_ = 0;       ///< count of the newest of them
-  /// Counts begin here: beyond those of an initialiser that was unloaded before.
+  /// Counts start here: beyond those of a previously unloaded initializer.
   const std::uint32_t first_start_ = static_cast<std::uint32_t>(now());
   bool done_ = false;
   SharedPublisher<StartState> start_publisher_;

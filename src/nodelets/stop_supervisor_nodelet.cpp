@@ -54,7 +54,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     supervisor_->restore(keeper_->load());
   }
 
-  /// An emergency stop that was latched must not wait for transforms.
+  /// A latched emergency stop must not wait for transforms.
   bool needsExtrinsics() const override { return false; }
 
   void subscribe(const Config& config) override {
@@ -72,7 +72,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     offerTuning("StopSupervisor");
   }
 
-  /// Between operator and rover. Once there, it stays there: commands must not run dry when the mode becomes off.
+  /// Between operator and rover. Once there, it stays: commands must not run dry when the mode becomes off.
   void stepBetween() {
     if (outputs_.hasCommands()) {
       return;
@@ -138,7 +138,7 @@ class StopSupervisorNodelet : public CoreNodelet {
         });
   }
 
-  /// A rover that drives on must be known of at once.
+  /// A rover that keeps driving must be reported at once.
   void watchObedience(const RoverObservation& observation) {
     const bool ignored = obedience_.isIgnored();
     obedience_.observe(supervisor_->told_mps(), observation);
@@ -158,14 +158,14 @@ class StopSupervisorNodelet : public CoreNodelet {
     });
   }
 
-  /// One command in, one command out: a silent operator is never spoken for.
+  /// One command in, one command out: it never speaks for a silent operator.
   void onCommand(const geometry_msgs::Twist::ConstPtr& message) {
     commands_watch_->heard(clocks());
     watchEstimates();
     const VelocityCommand in = toVelocityCommand(*message);
     if (!in.isFinite()) {
       ++refused_commands_;
-      NODELET_WARN_THROTTLE(1.0, "a command that is not finite is refused: the rover is told to stop");
+      NODELET_WARN_THROTTLE(1.0, "a command that is not finite is rejected: the rover is told to stop");
     }
     outputs_.command(supervisor_->command(in));
   }
@@ -191,7 +191,7 @@ class StopSupervisorNodelet : public CoreNodelet {
 
   void onEmergencyStop(const std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
     const bool wanted = request.data != 0;
-    supervisor_->setEmergencyStop(wanted);  // before the disk is waited for
+    supervisor_->setEmergencyStop(wanted);  // before waiting for the disk
     if (wanted) {
       stepBetween();
       enforceEmergencyStop();
@@ -214,7 +214,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     return loss.empty() ? answer : answer + "; not kept over a restart: " + loss;
   }
 
-  /// At once, and again and again: whoever begins to listen hears it, and a base does not go by an older command.
+  /// At once and repeatedly: new listeners hear it, and a base does not act on an older command.
   void enforceEmergencyStop() {
     outputs_.command(supervisor_->command({}));
     outputs_.lock(true);
@@ -241,7 +241,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     report();
   }
 
-  /// Without estimates, as much as both clocks say.
+  /// Without estimates, as much as both clocks agree on.
   void passTime() {
     const SilenceWatch::Now time = clocks();
     const double elapsed_s = std::min(time.ros_s - last_time_.ros_s, time.real_s - last_time_.real_s);
@@ -252,7 +252,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     }
   }
 
-  /// Nothing else says that a stop has ended while there are no estimates.
+  /// Without estimates nothing else reports the end of a stop.
   void reportChange() {
     if (supervisor_->status().state != reported_) {
       report();
@@ -277,7 +277,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     announce();
   }
 
-  /// For those who only want to know the seconds.
+  /// For nodes that only need the seconds.
   void announce() {
     if (const std::optional<double> seconds = supervisor_->countdown_s()) {
       outputs_.countDown(*seconds);
@@ -295,7 +295,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     diagnostics.add("state", nameOf(status.state));
     diagnostics.add("stops", status.stops);
     diagnostics.add("stops given up", status.refusals);
-    diagnostics.add("refused commands", refused_commands_);
+    diagnostics.add("rejected commands", refused_commands_);
     diagnostics.add("emergency stop is kept in", keeper_->file());
   }
 
@@ -315,7 +315,7 @@ class StopSupervisorNodelet : public CoreNodelet {
 
   std::string estimators() { return joined(endsOf(node().resolveName(topics_.nav_state)).publishers); }
 
-  static constexpr double kLongestTick_s = 1.0;  ///< between two ticks; more is a clock that was set
+  static constexpr double kLongestTick_s = 1.0;  ///< between two ticks; more means that a clock was set
 
   FrameNames frames_;
   TopicNames topics_;

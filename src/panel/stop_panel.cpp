@@ -29,7 +29,7 @@ const char* const kModes[] = {"off", "advise", "active"};  // by the numbers of 
 
 double now() { return ros::SteadyTime::now().toSec(); }
 
-/// Background and letters of the state, by which it is seen from afar.
+/// Background and text color of the state, visible from afar.
 QString styleOf(Mood mood) {
   switch (mood) {
     case Mood::kDanger:
@@ -155,7 +155,7 @@ void StopPanel::buildButtons() {
   grid->addWidget(new QLabel("stop at", this), 2, 2);
   grid->addWidget(threshold_, 2, 3);
   auto* column = qobject_cast<QVBoxLayout*>(layout());
-  column->insertWidget(column->indexOf(chart_), emergency_);  // seen on the smallest screen
+  column->insertWidget(column->indexOf(chart_), emergency_);  // visible on the smallest screen
   column->addLayout(grid);
   column->addWidget(answer_);
   column->addStretch(1);

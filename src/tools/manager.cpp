@@ -1,9 +1,9 @@
-/// The manager of the launch files: that of `nodelet manager`, with its services and parameters, which loads its
+/// The manager of the launch files: like `nodelet manager`, with the same services and parameters, but it loads its
 /// nodelets itself.
 ///
-/// With `nodelet load` each nodelet has a process beside the manager, and that learns only from 4 s without a heartbeat
-/// that the manager was killed; until then a manager that was started again is empty. Here what has died is whole as
-/// soon as it is started again.
+/// With `nodelet load` each nodelet has a process besides the manager, which notices only after 4 s without a heartbeat
+/// that the manager was killed; until then a restarted manager is empty. Here a manager is complete as soon as it is
+/// restarted.
 
 #include <nodelet/loader.h>
 #include <ros/ros.h>
@@ -45,7 +45,7 @@ bool loadNodelet(nodelet::Loader& loader, const std::string& word) {
   return true;
 }
 
-/// Until ROS is shut down. @return whether all could be loaded
+/// Runs until ROS is shut down. @return whether all could be loaded
 bool serve(const ros::V_string& words) {
   nodelet::Loader loader;
   for (const std::string& word : words) {
@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   const ros::NodeHandle keep_alive;
   const auto launch_file = ros::param::param<std::string>("slipnav/checkpoint/launch_file", "");
   const bool loaded = serve(words);
-  if (interrupted != 0) {  // by which roslaunch ends a launch: nobody goes on from there
+  if (interrupted != 0) {  // roslaunch ends the launch: nobody will resume from there
     slipnav::deleteCheckpoint(launch_file);
   }
   return loaded ? 0 : 1;

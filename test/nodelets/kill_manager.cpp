@@ -1,5 +1,5 @@
-/// `rover.launch` as it is, on a roscore where a simulation was before. The manager is killed while the rover drives:
-/// roslaunch starts it again, and the estimate goes on from what this launch has kept.
+/// `rover.launch` as it is, on a roscore where a simulation ran before. The manager is killed while the rover drives:
+/// roslaunch restarts it, and the estimate resumes from the state that this launch has kept.
 
 #include <gtest/gtest.h>
 #include <nav_msgs/Odometry.h>
@@ -26,7 +26,7 @@ namespace {
 constexpr double kDriveRate = 1.0;
 constexpr double kKillAfter_s = 4.0;       // from the first estimate: the rover is driving
 constexpr double kLongestSilence_s = 5.0;  // of real time, from the last estimate before to the first one after
-constexpr double kLongestStep_s = 0.3;     // between stamps of a manager that lives
+constexpr double kLongestStep_s = 0.3;     // between stamps while the manager is alive
 constexpr double kFastest_mps = 0.8;
 
 /// Every estimate with the time at which it came.

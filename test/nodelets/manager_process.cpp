@@ -1,5 +1,5 @@
-/// The manager of the launch files as a process: it brings its nodelets, and takes the state of the launch with it only
-/// when the launch ends.
+/// The manager of the launch files as a process: it loads its nodelets, and deletes the state of the launch only when
+/// the launch ends.
 
 #include <gtest/gtest.h>
 #include <nodelet/NodeletList.h>
@@ -42,7 +42,7 @@ class ManagerProcess : public ::testing::Test {
     return list.response.nodelets;
   }
 
-  /// Its exit status; negative when it was not there in time.
+  /// Its exit status; negative if it did not arrive in time.
   static int endWith(int signal, ChildProcess& process) {
     const ros::SteadyTime begin = ros::SteadyTime::now();
     while (loaded().size() < 2) {

@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kRate = 5.0;  // on real time
 constexpr double kDrive_s = 60.0;
-constexpr double kUnderWay_s = 35.0;  // from then on nobody has a reason to warn
+constexpr double kUnderWay_s = 35.0;  // from then on there is no reason for warnings
 
 /// One of them, and what is heard of it.
 struct Rover {

@@ -39,7 +39,7 @@ MOST_BYTES = 6_000_000
 MOST_BYTES_OF_PICTURES = 1_500_000
 MOST_SECONDS = 60.0  # for a drive of a minute on a machine that is busy; see doc/visualisation.md for what it takes
 THRESHOLD_M = 0.8
-LEAST_PIXELS = 30  # of pure colour; the edges of lines are blended
+LEAST_PIXELS = 30  # of pure color; the edges of lines are blended
 
 
 def write_forecasts(directory, start):
@@ -143,7 +143,7 @@ class ReportTest(unittest.TestCase):
         (track,) = self.panels("track")
         self.assertTrue(track["track"])
         for name, table, keys in (("estimate", line, ("est_e", "est_n")), ("truth", self.run_data.truth, ("e", "n")),
-                                  ("wheels and gyro alone", self.run_data.wheel_track, ("east", "north"))):
+                                  ("wheels and gyro only", self.run_data.wheel_track, ("east", "north"))):
             for got, key in zip(self.values(track, name), keys):
                 np.testing.assert_allclose(got, table[key], atol=6e-4, err_msg=name)
         for panel, error, axis in zip(self.panels("errors"), self.run_data.errors(), "enu"):
@@ -206,7 +206,7 @@ class ReportTest(unittest.TestCase):
         reasons = [getattr(axes, "empty", "") for draw in (forecasts.predicted_and_realised, filter_health.consistency)
                    for axes in draw(run).axes]
         self.assertEqual(reasons, ["no forecast and no truth", "no forecast, no countdown", "", "", "", "", "",
-                                   "no stop, or none that was used", "no truth in this recording", ""])
+                                   "no stop, or none was used", "no truth in this recording", ""])
 
     def test_legends_cover_no_curve(self):
         for name, _, draw in page.FIGURES:
@@ -264,7 +264,7 @@ class ReportTest(unittest.TestCase):
 
     def test_ground_track(self):
         axes = tracks.ground_track(self.run_data).axes[0]
-        for label in ("estimate", "smoothed", "truth", "wheels and gyro alone"):
+        for label in ("estimate", "smoothed", "truth", "wheels and gyro only"):
             east, north = curve(axes, label).get_data()
             self.assertGreater(len(east), 100)
             self.assertGreater(np.ptp(east) + np.ptp(north), 20.0, label)

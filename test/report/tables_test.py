@@ -75,7 +75,7 @@ def outcome(stop_rate_pct=0.0, enu_error_pct=0.0, stretches=(), time_to_stop_s=N
 
 
 class PaperTest(unittest.TestCase):
-    """Each figure is rounded: percentages and metres to 0.01, distances to 1 m."""
+    """Each figure is rounded: percentages and meters to 0.01, distances to 1 m."""
 
     @staticmethod
     def rounding_pct(pct, distance_m):
@@ -134,7 +134,7 @@ class StatisticsTest(unittest.TestCase):
 
     def test_text_of_p(self):
         self.assertEqual([statistics.p_text(p) for p in (None, 0.00009, 0.0049)],
-                         ["cannot be told", "< 0.0001", "0.0049"])
+                         ["unknown", "< 0.0001", "0.0049"])
 
 
 class ReadingTest(unittest.TestCase):

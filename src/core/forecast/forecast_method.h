@@ -1,5 +1,5 @@
 #pragma once
-/// The forecaster that `forecast.schedule` names, behind the calls that all of them have.
+/// The forecaster selected by `forecast.schedule`, behind a common interface.
 
 #include <optional>
 #include <string>
@@ -16,16 +16,17 @@ class ForecastMethod {
   /// Throws std::invalid_argument naming a parameter that is out of range.
   ForecastMethod(const Planet& planet, const FilterSetup& setup, const ForecastParams& params);
 
-  /// Takes each estimate of the filter in order, with its covariance. @return a forecast where one is due
+  /// Takes each estimate of the filter in order, with its covariance. @return a forecast if one is due
   std::optional<Forecast> push(const Estimate& estimate, const ErrorCovariance& P);
 
-  /// Other parameters from the next estimate on. Schedule, slip model and bound have to be those of the constructor.
+  /// Applies other parameters from the next estimate on. Schedule, slip model and bound must be those of the
+  /// constructor.
   void retune(const FilterSetup& setup, const ForecastParams& params);
 
   /// Forgets everything.
   void reset();
 
-  /// Why the last forecast that was due could not be made; empty when it could.
+  /// Why the last forecast that was due could not be made; empty if it could.
   const std::string& problem() const;
 
  private:

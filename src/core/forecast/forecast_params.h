@@ -1,5 +1,5 @@
 #pragma once
-/// What can be configured about forecasts.
+/// Configuration of forecasts.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace slipnav {
 
 /// Block `forecast`.
 struct ForecastParams {
-  /// The slip model that forecasts best, see doc/forecast.md; a model on its own is the paper's.
+  /// The slip model that forecasts best, see doc/forecast.md; a model on its own defaults to the paper's.
   ForecastParams() {
     slip.model = "rbf_slow";
     slip.inference = "state_space";

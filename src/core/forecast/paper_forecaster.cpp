@@ -9,7 +9,7 @@
 namespace slipnav {
 namespace {
 
-/// A countdown that has run out by so much without a standstill is one that nobody heeds [s].
+/// A countdown that expired this long ago without a standstill was ignored [s].
 constexpr double kUnheeded_s = 6.0;
 
 bool isFinite(const Estimate& estimate, const ErrorCovariance& P) {
@@ -41,7 +41,7 @@ void PaperForecaster::reset() {
 
 std::optional<Forecast> PaperForecaster::push(const Estimate& estimate, const ErrorCovariance& P) {
   if (estimate.nav.stamp <= newest_) {
-    reset();  // the recording began anew
+    reset();  // the recording restarted
   }
   newest_ = estimate.nav.stamp;
   if (!estimate.has_wheels) {

@@ -1,6 +1,6 @@
 #pragma once
-/// The paper's method (Kilic et al. 2021, section IV) as it is printed: collect slip for 15 s or 12 m of free driving,
-/// forecast once, keep the countdown until the rover has stopped, collect again. See doc/paper_method.md.
+/// The paper's method (Kilic et al. 2021, section IV) as printed: collect slip for 15 s or 12 m of free driving,
+/// forecast once, keep the countdown until the rover has stopped, then collect again. See doc/paper_method.md.
 
 #include <optional>
 #include <string>
@@ -11,30 +11,30 @@
 
 namespace slipnav {
 
-/// Takes every estimate, as Forecaster does, and makes one forecast for each window of driving.
+/// Receives every estimate, like Forecaster, and makes one forecast per window of driving.
 class PaperForecaster {
  public:
   /// Throws std::invalid_argument naming a parameter that is out of range.
   PaperForecaster(const Planet& planet, const FilterSetup& setup, const ForecastParams& params);
 
-  /// Takes each estimate of the filter in order, with its covariance. A standstill begins a new window, and so does a
-  /// forecast that sees no stop, or a countdown that nobody has heeded.
+  /// Takes each estimate of the filter in order, with its covariance. A standstill starts a new window, and so does a
+  /// forecast that predicts no stop, or a countdown that was ignored.
   std::optional<Forecast> push(const Estimate& estimate, const ErrorCovariance& P);
 
-  /// Takes over threshold, window, horizon and the filter's measurements from the next estimate on.
+  /// Applies a new threshold, window, horizon and measurement noise from the next estimate on.
   void retune(const FilterSetup& setup, const ForecastParams& params);
 
   /// Forgets everything.
   void reset();
 
-  /// Why the last forecast that was due could not be made; empty when it could.
+  /// Why the last forecast that was due could not be made; empty if it could.
   const std::string& problem() const { return problem_; }
 
  private:
   /// Free driving since the last stop or forecast.
   struct Window {
     Nanoseconds begin = 0;
-    SlipSamples slip;  ///< times since the begin
+    SlipSamples slip;  ///< times since `begin`
     double driven_s = 0.0;
     double driven_m = 0.0;
     double speed_sum_mps = 0.0;  ///< over the slip samples
@@ -53,7 +53,7 @@ class PaperForecaster {
   SigmaPoints sigma_points_;
   Window window_;
   Nanoseconds newest_ = 0;
-  Nanoseconds kept_until_ = 0;  ///< the countdown runs
+  Nanoseconds kept_until_ = 0;  ///< end of the running countdown
   std::string problem_;
 };
 

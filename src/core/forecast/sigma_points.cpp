@@ -19,7 +19,7 @@ SigmaPointForm formOf(const std::string& name) {
                             : SigmaPointForm::kUnscented;
 }
 
-// Narrower than this the difference quotient of the points loses digits.
+// For a narrower spread the difference quotient of the points loses precision.
 constexpr double kMinSpread = 1e-6;
 
 }  // namespace
@@ -27,8 +27,8 @@ constexpr double kMinSpread = 1e-6;
 void SigmaPointParameters::visit(ParameterVisitor& v) {
   v.choice(
       "form", form, {"unscented", "paper", "letter"},
-      "wheel speed variance from predicted slip: unscented; by the paper's three points; by the letter of the paper, "
-      "whose units do not agree");
+      "wheel speed variance from predicted slip: unscented; by the paper's three points; or by the paper's printed "
+      "equations, whose units are inconsistent");
   v.number("spread", spread, {1.0, 10.0}, "distance of the outer sigma points from the mean, in standard deviations");
   v.number("max_slip", max_slip, {0.0, 0.999}, "sigma points are clamped to this slip ratio, short of the pole at 1");
 }

@@ -8,7 +8,7 @@ std::string dangerOf(const StopSigns& signs) {
     return "emergency stop without effect: " + signs.unheard;
   }
   if (signs.ignored) {
-    return "the rover drives on although it is told to stop";
+    return "the rover keeps driving although it is told to stop";
   }
   if (!signs.not_kept.empty()) {
     return "emergency stop and override are not kept: " + signs.not_kept;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the operator has to know about the stops, in words, the worst first.
+/// What the operator has to know about the stops, in words, worst first.
 
 #include <string>
 
@@ -8,19 +8,19 @@
 
 namespace slipnav {
 
-/// What tells that stops are not what they should be.
+/// Signs that stops do not work as they should.
 struct StopSigns {
-  std::string unheard;   ///< why an emergency stop that is set does not reach the rover; "" when it does
-  bool ignored = false;  ///< the rover drives on although it is told to stop
-  std::string not_kept;  ///< why emergency stop and override would not survive a restart; "" when they would
-  std::string rivals;    ///< the nodes that publish estimates, if they are more than one
+  std::string unheard;   ///< why an active emergency stop does not reach the rover; "" if it does
+  bool ignored = false;  ///< the rover keeps driving although it is told to stop
+  std::string not_kept;  ///< why emergency stop and override would not survive a restart; "" if they would
+  std::string rivals;    ///< the nodes that publish estimates, if there is more than one
   bool estimates_missing = false;
   bool commands_unheard = false;  ///< nobody listens to cmd_vel
   bool commands_silent = false;
   bool forecaster_silent = false;
 };
 
-/// In the order of their weight.
+/// In order of severity.
 enum class StopConcern { kNone, kProblem, kDanger };
 
 struct StopVerdict {
@@ -28,7 +28,7 @@ struct StopVerdict {
   std::string words;
 };
 
-/// A danger is what takes an emergency stop its meaning, now or after a restart.
+/// A danger is what makes an emergency stop ineffective, now or after a restart.
 StopVerdict judgeStops(const SupervisorStatus& status, StopMode mode, const StopSigns& signs);
 
 /// In words for log and diagnostics.

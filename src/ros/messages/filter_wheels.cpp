@@ -6,7 +6,7 @@
 namespace slipnav {
 namespace {
 
-/// [s] without a usable sample, or more where `filter.max_wheel_interval_s` says so.
+/// [s] without a usable sample, or `filter.max_wheel_interval_s` if that is longer.
 constexpr double kSilence_s = 0.5;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Wheel messages on their way to the filter: read, freed of single wrong stamps, put into the time of the IMU and kept
+/// Wheel messages on their way to the filter: read, cleared of single wrong stamps, converted to IMU time and held
 /// until their session has begun.
 
 #include <functional>
@@ -14,13 +14,13 @@
 
 namespace slipnav {
 
-/// The wheels of the nodelet Filter.
+/// The wheels of the Filter nodelet.
 class FilterWheels {
  public:
-  /// @param use gets each sample when the filter shall have it
+  /// @param use is called with each sample when the filter is to use it
   FilterWheels(const Config& config, std::function<void(const WheelMotion&)> use);
 
-  /// What one message says, for push(); nothing when it is left out, and problem() says why.
+  /// The content of one message, for push(); nothing if it is rejected, and problem() says why.
   template <class Message>
   std::optional<WheelMotion> read(const Message& message, const SilenceWatch::Now& now) {
     ++messages_;
@@ -34,17 +34,17 @@ class FilterWheels {
   }
   void push(const WheelMotion& motion);
 
-  /// What was wrong with the newest message, "" when nothing.
+  /// What was wrong with the newest message, "" if nothing.
   const std::string& problem() const { return input_.problem(); }
   /// See WheelInput.
   const std::string& remark() const { return input_.remark(); }
-  /// What is wrong with the wheels now, "" when nothing.
+  /// What is wrong with the wheels now, "" if nothing.
   std::string failure(const SilenceWatch::Now& now) const { return watch_.problem(input_.topic(), now); }
 
-  /// What the mechanisation knows of the clock. @return whether that is news
+  /// Takes what the mechanization knows about the clock. @return whether that is new
   bool learn(const ContinuousTime& time);
   const ContinuousTime& time() const { return in_time_.time(); }
-  /// The mechanisation has begun again.
+  /// The mechanization has restarted.
   void recount() { in_time_.recount(); }
 
   /// See WheelSessions.

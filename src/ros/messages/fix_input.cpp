@@ -8,7 +8,7 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kKept = 300 * kSecond;  // of a recording that is played fast, until a start is told
+constexpr Nanoseconds kKept = 300 * kSecond;  // of a recording played fast, until a start is known
 
 }  // namespace
 
@@ -33,7 +33,7 @@ std::vector<PositionFix> FixInput::take(const sensor_msgs::NavSatFix& message, c
   return fixes;
 }
 
-/// A fix that is a second older than the newest one is of a clock that has begun again.
+/// A fix that is a second older than the newest one comes from a clock that has restarted.
 void FixInput::keep(const PositionFix& fix) {
   if (!newest_.empty() && fix.stamp <= newest_.back().stamp - kRestartBackstep) {
     newest_.clear();

@@ -8,7 +8,7 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kInterval = kSecond;  // in time of the stamps
+constexpr Nanoseconds kInterval = kSecond;  // in sensor time
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What Filter hands over once a second, so that an estimate can go on without it.
+/// What Filter hands over once a second, so that the estimate can continue without it.
 
 #include <ros/node_handle.h>
 #include <slipnav/StartState.h>
@@ -16,11 +16,11 @@ class HandOver {
  public:
   explicit HandOver(ros::NodeHandle& node);
 
-  /// An estimate has started by this message; its first state is due at once.
+  /// An estimate has started from this message; its first state is due immediately.
   void start(const StartState& message, const Geodetic& origin);
   /// The state of the filter, if it is due.
   void offer(const FilterEngine& filter);
-  /// There is no estimate any more.
+  /// There is no longer an estimate.
   /// @param start that ended it
   void end(std::uint32_t start);
 

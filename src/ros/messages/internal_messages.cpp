@@ -8,7 +8,7 @@
 
 namespace slipnav {
 
-// Structs are taken apart member by member, so that one that gains a member does not compile here until it is sent too.
+// Structs are taken apart member by member, so that one that gains a member does not compile until it is sent too.
 
 namespace {
 

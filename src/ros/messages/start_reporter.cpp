@@ -14,7 +14,7 @@ namespace {
 std::string lineOf(const Initialization& report) {
   char line[300];
   std::snprintf(line, sizeof line,
-                "initialisation at %.3f s: %s; origin %.7f deg, %.7f deg, %.2f m, heading %.2f deg (1 sigma %.2f deg)",
+                "initialization at %.3f s: %s; origin %.7f deg, %.7f deg, %.2f m, heading %.2f deg (1 sigma %.2f deg)",
                 report.header.stamp.toSec(), report.progress.c_str(), report.latitude_deg, report.longitude_deg,
                 report.height_m, report.heading_deg, report.heading_std_deg);
   return line;
@@ -35,7 +35,7 @@ std::string StartReporter::search(const std::string& progress, Nanoseconds stamp
   report->header.frame_id = frames_.map;
   report->progress = progress_;
   publisher_.publish(report);
-  return "initialisation: " + progress_;
+  return "initialization: " + progress_;
 }
 
 std::string StartReporter::end(const InitialState& initial, const std::string& how) {

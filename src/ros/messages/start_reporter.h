@@ -1,5 +1,5 @@
 #pragma once
-/// Says how the search for a start goes, and what it has found: `initialization`, and the frame `map`.
+/// Reports the progress of the search for a start, and its result: `initialization`, and the frame `map`.
 
 #include <ros/node_handle.h>
 #include <slipnav/Initialization.h>
@@ -13,17 +13,17 @@
 
 namespace slipnav {
 
-/// The words of the nodelet Initializer. Both calls return the line for its log.
+/// The messages of the Initializer nodelet. Both calls return the line for its log.
 class StartReporter {
  public:
   StartReporter(ros::NodeHandle& node, const FrameNames& frames);
 
-  /// "" when that was said before. @param stamp of the newest sample
+  /// "" if that was reported before. @param stamp of the newest sample
   std::string search(const std::string& progress, Nanoseconds stamp);
   /// @param how the start was found
   std::string end(const InitialState& initial, const std::string& how);
 
-  /// What was said last.
+  /// What was reported last.
   const std::string& progress() const { return progress_; }
 
  private:

@@ -101,7 +101,7 @@ TEST_F(ForecasterTest, BoundGrowsFromTheStopAndSaysWhenToStop) {
 }
 
 /// After hours the heading is uncertain, and the position with it. That the rover gains speed must not be taken for a
-/// sight of the heading, which would move the position by metres.
+/// sight of the heading, which would move the position by meters.
 TEST_F(ForecasterTest, GainingSpeedTellsNothingAboutTheHeading) {
   constexpr double kHeadingStd = 0.05;
   P_(kAttitude + 2, kAttitude + 2) = kHeadingStd * kHeadingStd;

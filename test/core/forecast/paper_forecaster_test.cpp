@@ -95,8 +95,8 @@ class PaperForecasterTest : public ::testing::Test {
   std::vector<int> made_;
 };
 
-/// F of an inertial navigation system on a plane that does not turn: of what it leaves out, the Earth's rotation is the
-/// largest, 7e-5 of the terms that it has.
+/// F of an inertial navigation system on a non-rotating plane: of the omitted terms, the Earth's rotation is the
+/// largest, 7e-5 of the remaining ones.
 Matrix15 transitionByHand(const Matrix3& C, const Vector3& force_n) {
   Matrix15 F = Matrix15::Zero();
   F.block<3, 3>(0, 12) = -C;

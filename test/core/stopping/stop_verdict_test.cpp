@@ -40,7 +40,7 @@ TEST_F(StopVerdictTest, TheWorstComesFirst) {
   signs_.not_kept = "the disk is full";
   expect(StopConcern::kDanger, "emergency stop and override are not kept: the disk is full");
   signs_.ignored = true;
-  expect(StopConcern::kDanger, "the rover drives on although it is told to stop");
+  expect(StopConcern::kDanger, "the rover keeps driving although it is told to stop");
   signs_.unheard = "nobody listens to cmd_vel or e_stop";
   expect(StopConcern::kDanger, "emergency stop without effect: nobody listens to cmd_vel or e_stop");
 }

@@ -17,7 +17,7 @@
 namespace slipnav::test {
 namespace {
 
-/// What a model is linearised about, and what the IMU said.
+/// What a model is linearized about, and what the IMU said.
 struct Point {
   NavigationState nav;
   VehicleState vehicle;
@@ -70,7 +70,7 @@ void expectJacobian(const std::string& name, const Model& model, const std::vect
     const Point point = randomPoint(random);
     const Eigen::MatrixXd numeric = numericJacobian(model, point);
     const Eigen::MatrixXd H = model(point).H;
-    // the turn of the planet in the lever arm's velocity, ω_ie l ≈ 1e-4 m/s per radian, is left out of H
+    // the planet's rotation in the lever-arm velocity, ω_ie l ≈ 1e-4 m/s per radian, is neglected in H
     EXPECT_LT((H - numeric).cwiseAbs().maxCoeff(), 1e-3) << name << "\n" << H << "\nnumerically\n" << numeric;
     for (const int index : seen) {
       EXPECT_GT(numeric.col(index).cwiseAbs().maxCoeff(), 0.01) << name << ", state " << index;
