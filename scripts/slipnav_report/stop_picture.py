@@ -1,5 +1,5 @@
 """The paper's figure of one stop: (a) speeds, (b) slip and its prediction, (c) wheel speeds by sigma points, (d) predicted
-and realized error with ε and the countdown."""
+and actual error with ε and the countdown."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -112,7 +112,7 @@ def draw_errors(axes, run, stop):
 
 
 def draw_countdown(axes, time_to_stop_s, stop):
-    """From the forecast to the moment for which it announced the stop."""
+    """From the forecast to the time for which it announced the stop."""
     if not np.isfinite(time_to_stop_s):
         return
     due = stop.forecast + time_to_stop_s

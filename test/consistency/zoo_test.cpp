@@ -109,8 +109,8 @@ TEST_P(Stuck, StandsWhereItStands) {
   }
 }
 
-/// Where soft ground begins, slip is not what the ground is expected to have. Drawn back to that at once, it would take
-/// the velocity along: 1.23 % of the way instead of 0.63 %.
+/// Where soft ground begins, slip is not what is expected of the ground. Pulled back to that immediately, it would take
+/// the velocity along: 1.23 % of the distance instead of 0.63 %.
 TEST(SoftPatches, DoNotPullTheVelocityToTheWheels) {
   constexpr int kDrives = 4;
   constexpr double kLargestError_pct = 0.9;

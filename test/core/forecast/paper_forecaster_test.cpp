@@ -22,10 +22,10 @@ const Vector3 kForce_b(0.3, -0.2, -9.8);
 
 using Matrix15 = Eigen::Matrix<double, 15, 15>;
 
-/// Six, for a countdown that nobody heeds.
+/// Six, for a countdown that is ignored.
 constexpr int kUnheededSamples = 60;
 
-/// The paper's fifteen states: nothing is known, nor to be known, of the others.
+/// The paper's fifteen states: the others have variance zero.
 FilterSetup fifteenStates() {
   Config config;
   config.vehicle = {0.0, 0.0, 24.0, 0.0, 0.0, 0.5, 0.0, 8.0, 0.0, 0.0};
@@ -133,7 +133,7 @@ Eigen::Matrix<double, 4, 15> odometryByHand(const Matrix3& C, const Vector3& v_n
   return H;
 }
 
-/// Mean squared spread of v/(1 − μ), v/(1 − μ ± σ); to the letter σ² for σ, and squared.
+/// Mean squared spread of v/(1 − μ), v/(1 − μ ± σ); as printed σ² for σ, and squared.
 double wheelVarianceByHand(double v, double mean, double stddev, bool letter) {
   const double half_width = letter ? stddev * stddev : stddev;
   const double a = v / (1.0 - mean);
@@ -233,7 +233,7 @@ TEST_F(PaperForecasterTest, ForecastThatSeesNoStopIsFollowedByAnother) {
 }
 
 TEST_F(PaperForecasterTest, CountdownIsKeptUntilTheStopAndTheNextWindowFollowsIt) {
-  params_.threshold_m = 0.01;  // at once: the countdown runs out after 0.1 s
+  params_.threshold_m = 0.01;  // immediately: the countdown expires after 0.1 s
   PaperForecaster forecaster = make();
   drive(forecaster, 170);
   EXPECT_EQ(made_, std::vector<int>{150});

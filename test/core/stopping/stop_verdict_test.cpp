@@ -23,7 +23,7 @@ TEST_F(StopVerdictTest, TheReasonStandsWhereNothingIsWrong) {
   expect(StopConcern::kNone, "driving for the first time");
 }
 
-/// Each sign that is added is worse than those before.
+/// Each added sign is worse than those before.
 TEST_F(StopVerdictTest, TheWorstComesFirst) {
   signs_.forecaster_silent = true;
   expect(StopConcern::kProblem, "no forecasts: periodic stops");

@@ -22,8 +22,8 @@ constexpr double kShownSigmas = 2.0;
 
 double shownSlip(double slip, double variance) { return square(slip) > square(kShownSigmas) * variance ? slip : 0.0; }
 
-/// Fast slip that shows beyond doubt is not drawn back to zero as if it were the ground's usual: where soft ground
-/// begins, the wheels would pull the velocity along within a meter. It is driven by its own square until it passes.
+/// Significant fast slip is not pulled back to zero as if it were usual for the ground: where soft ground begins, the
+/// wheels would pull the velocity along within a meter. It is driven by its own square until it has passed.
 void holdShownSlip(double slip, double ground_variance, ErrorTransition& transition) {
   if (square(slip) > ground_variance && ground_variance > 0.0) {
     transition.noise(kFastSlip) *= square(slip) / ground_variance;
