@@ -23,6 +23,7 @@ struct StopSigns {
 /// In order of severity.
 enum class StopConcern { kNone, kProblem, kDanger };
 
+/// The most severe concern, and what to tell the operator.
 struct StopVerdict {
   StopConcern concern = StopConcern::kNone;
   std::string words;
