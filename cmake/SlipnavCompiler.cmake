@@ -1,4 +1,4 @@
-# Language level, optimisation, warnings and sanitizers of this package's own targets.
+# Language level, optimization, warnings and sanitizers of this package's own targets.
 #
 # Results must be equal bit for bit across machines and builds. Hence no -march=native, no -ffast-math, and no fused
 # multiply-add that the compiler would otherwise form wherever the target has one.
@@ -29,7 +29,7 @@ set(SLIPNAV_ROS_HEADERS
 
 find_program(SLIPNAV_CCACHE ccache)
 if(SLIPNAV_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  # Without this, ccache keeps nothing that was compiled with a precompiled header.
+  # Without this, ccache does not cache anything compiled with a precompiled header.
   set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros "${SLIPNAV_CCACHE}")
 endif()
 
@@ -48,7 +48,7 @@ function(slipnav_configure_target target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
   if(SLIPNAV_SANITIZE)
-    # GCC takes the sanitizers' own code for uninitialised use, in Eigen above all.
+    # GCC mistakes the sanitizers' own code for uninitialized use, above all in Eigen.
     target_compile_options(${target} PRIVATE
       $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
       -fsanitize=${SLIPNAV_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
@@ -59,7 +59,7 @@ function(slipnav_configure_target target)
   endif()
 endfunction()
 
-# A shared library that calls what none of its own libraries has does not link. Sanitizers leave their own calls open.
+# A shared library with undefined symbols does not link. Sanitizers leave their own symbols undefined.
 function(slipnav_refuse_undefined_symbols target)
   if(NOT SLIPNAV_SANITIZE)
     target_link_options(${target} PRIVATE -Wl,--no-undefined)

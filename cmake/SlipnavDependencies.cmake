@@ -12,7 +12,7 @@ if(NOT NLOPT_INCLUDE_DIR OR NOT NLOPT_LIBRARY)
   message(FATAL_ERROR "slipnav: NLopt with its C++ header was not found (package libnlopt-cxx-dev)")
 endif()
 
-# catkin_package(DEPENDS EIGEN3) hands on these; Eigen's own package defines the target alone.
+# catkin_package(DEPENDS EIGEN3) exports these; Eigen's own package defines only the target.
 if(NOT EIGEN3_INCLUDE_DIRS)
   get_target_property(EIGEN3_INCLUDE_DIRS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 endif()

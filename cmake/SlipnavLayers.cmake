@@ -1,5 +1,5 @@
 # The layers below ROS, one library each. A layer links only those that it may include, so that a call upwards is an
-# error of the linker; test/doc/layers_test.py holds the includes against the same order, folder by folder.
+# linker error; test/doc/layers_test.py checks the includes against the same order, folder by folder.
 
 set(slipnav_layers core simulation io config evaluation calibration overlay inspection tuning)
 set(slipnav_uses_simulation core)

@@ -1,4 +1,4 @@
-# Everything catkin has to know before the first target: components, messages and what the package exports.
+# Everything catkin needs to know before the first target: components, messages and what the package exports.
 
 find_package(catkin REQUIRED COMPONENTS
   diagnostic_msgs

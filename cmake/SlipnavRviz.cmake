@@ -1,4 +1,4 @@
-# The operator's panel, a plugin of rviz. Where rviz cannot be built against, everything else is.
+# The operator's panel, an rviz plugin. Without rviz to build against, everything else is still built.
 
 find_package(rviz QUIET)
 find_package(Qt5Widgets QUIET)

@@ -6,7 +6,7 @@ FROM debian:12
 ENV DEBIAN_FRONTEND=noninteractive LANG=C.UTF-8
 WORKDIR /slipnav
 
-# Packages have a layer of their own, which a change of the code leaves alone.
+# Packages have their own layer, unaffected by code changes.
 COPY scripts/setup scripts/common.sh scripts/
 RUN apt-get update && scripts/setup && rm -rf build
 

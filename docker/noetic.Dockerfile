@@ -16,7 +16,7 @@ RUN apt-get update && apt-get install -y --no-install-recommends gnupg \
     > /etc/apt/sources.list.d/ros.list \
   && apt-get update && apt-get install -y --no-install-recommends ros-noetic-ros-core
 
-# Packages have a layer of their own, which a change of the code leaves alone.
+# Packages have their own layer, unaffected by code changes.
 COPY scripts/setup scripts/common.sh scripts/
 RUN scripts/setup && rm -rf build
 

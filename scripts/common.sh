@@ -1,13 +1,13 @@
-# Shared by run and the scripts beside this file; to be sourced with ROOT set to the top folder of the project.
+# Shared by run and the scripts in this folder; source it with ROOT set to the top folder of the project.
 
 # Another build folder: SLIPNAV_BUILD.
 BUILD="${SLIPNAV_BUILD:-$ROOT/build}"
 LOGS="$BUILD/log"
 
-# The system's python3 has catkin and rospy; another one that comes first in PATH has neither.
+# The system's python3 has catkin and rospy; another one earlier in PATH may have neither.
 export PATH="/usr/bin:$PATH"
 
-# Nodes find each other on machines whose own name does not resolve.
+# Lets nodes find each other on machines whose own name does not resolve.
 if [[ -z "${ROS_IP:-}${ROS_HOSTNAME:-}" ]]; then
   export ROS_HOSTNAME=localhost
 fi
@@ -75,5 +75,5 @@ name_configurations() {
   done
 }
 
-# A port that nobody listens on: what is started here must not get into the way of a master that runs already.
+# A free port: what is started here must not interfere with a running master.
 free_port() { python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'; }

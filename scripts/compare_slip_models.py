@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Compares the slip models of `forecast` by how well they predict slip that they have not seen.
+"""Compares the slip models of `forecast` by how well they predict held-out slip.
 
 A window slides over a recording of slip (rows time_s,slip); each model is fitted to the window and predicts the samples
 after it. Printed per model: the mean log predictive density of a held-out sample (higher is better) in three ranges of

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the stops of an autonomous drive saved: beside a clock with as many, and beside none.
+"""What the stops of an autonomous drive gained, compared with as many periodic stops and with none.
 
 Drives the other two, prints the table, and writes comparison.json.
 """
@@ -10,7 +10,7 @@ import json
 import os
 import sys
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from slipnav_campaign.local import LocalPool  # noqa: E402
@@ -42,7 +42,7 @@ def main():
     arguments = parse_arguments()
     drive = Drive(GROUND.terrain, arguments.distance, arguments.seed, paper.AUTONOMOUS, None, GROUND.settings)
     autonomous = read_outcome(drive, arguments.directory)
-    others = {"by the clock": clock.clock_drive(drive, autonomous),
+    others = {"periodic": clock.clock_drive(drive, autonomous),
               "never": Drive(GROUND.terrain, arguments.distance, arguments.seed, clock.NEVER, None, GROUND.settings,
                              with_stretches=True)}
     with contextlib.closing(LocalPool(2)) as pool:
@@ -52,7 +52,7 @@ def main():
         if isinstance(outcome, Failure):
             print(f"demo: the drive with stops {name}: {outcome}", file=sys.stderr)
             return 1
-    heads = ["stops", "number", "error grown between two, worst [m]", "horizontal error, worst [m]", "ENU error [%]"]
+    heads = ["stops", "number", "error growth between two, worst [m]", "horizontal error, worst [m]", "ENU error [%]"]
     print(output.table_markdown(Table(heads, [row(name, outcome) for name, outcome in named.items()])))
     with open(os.path.join(arguments.directory, "comparison.json"), "w", encoding="utf-8") as file:
         json.dump({name: outcome.as_json() for name, outcome in named.items()}, file, indent=1, allow_nan=False)

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Evaluates several recordings at once, with one table, one page and the paper's tables by group.
 
-One recording without the options of this program goes to the executable `evaluate` as it is.
+One recording without the options of this program is passed to the executable `evaluate` unchanged.
 """
 
 import argparse
@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from slipnav_campaign import engine  # noqa: E402
@@ -24,7 +24,7 @@ from slipnav_drives import page, table  # noqa: E402
 from slipnav_drives.evaluation import Order, evaluate, findings  # noqa: E402
 from slipnav_drives.recordings import recordings_of  # noqa: E402
 
-FOR_ONE = ("odometry", "part")  # options of the executable that say something of a single recording
+FOR_ONE = ("odometry", "part", "figure")  # options of the executable that apply to a single recording
 
 
 def say(text):
@@ -59,7 +59,7 @@ def sections_of_tables(path):
         with open(path, encoding="utf-8") as file:
             return json.load(file)["sections"]
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise argparse.ArgumentTypeError(f"'{path}' is no tables.json of ./run tables: {error}")
+        raise argparse.ArgumentTypeError(f"'{path}' is not a tables.json of ./run tables:  {error}")
 
 
 def own_parser():
@@ -68,14 +68,14 @@ def own_parser():
     options = parser.add_argument_group("Several BAGs, or folders of them, are evaluated together; --out then has a "
                                         "folder for each, index.html and rows.csv")
     options.add_argument("--separate", action="store_true",
-                         help="parts of a split recording are recordings of their own, and not joined")
+                         help="parts of a split recording are separate recordings, not joined")
     options.add_argument("--group", type=group, action="append", default=[], metavar="NAME=GLOB",
-                         help="recordings whose path or file name fits, for the paper's tables and its figure of stop "
-                              "intervals by group; without a BAG the files that fit; may be repeated")
+                         help="recordings whose path or file name matches, for the paper's tables and its figure of stop "
+                              "intervals by group; without a BAG the matching files; may be repeated")
     options.add_argument("--simulated", type=sections_of_tables, metavar="FILE",
-                         help="tables.json of ./run tables: its drives stand beside the groups")
+                         help="tables.json of ./run tables: its drives are shown next to the groups")
     engine.add_options(options, positive_count)
-    options.add_argument("--evaluate", metavar="FILE", help="the executable (default: the one in PATH or beside this program)")
+    options.add_argument("--evaluate", metavar="FILE", help="the executable (default: in PATH, or next to this program)")
     return parser
 
 
@@ -89,7 +89,7 @@ def without_executable(words):
 
 
 class CommandLine:
-    """Tells apart what this program and what the executable is to read; knows the options of either by its help."""
+    """Separates the options of this program from those of the executable, which it knows from its help."""
 
     def __init__(self, words, executable, parser):
         self.options = {}  # of the executable, by name: whether they take a value
@@ -135,13 +135,13 @@ class CommandLine:
             parser.error(f"{word} needs a value")
         for option in FOR_ONE:
             if self.has(option):
-                parser.error(f"--{option} is for one recording alone")
+                parser.error(f"--{option} is for a single recording")
         if self.has("report") and not self.out:
             parser.error("--report needs --out")
 
 
 def members_of(parser, arguments, recordings):
-    """{group: its recordings}; a recording is in the first group that fits."""
+    """{group: its recordings}; a recording is in the first group that matches."""
     groups = {name: [] for name, _ in arguments.group}
     for recording in recordings:
         for name, pattern in arguments.group:
@@ -172,7 +172,7 @@ def say_findings(outcomes):
 
 def sections_by_group(groups, outcomes, simulated):
     """({name: Section}, as text, as HTML)"""
-    from slipnav_drives.groups import sections_of  # draws, and takes time to load
+    from slipnav_drives.groups import sections_of  # draws, and is slow to load
     from slipnav_tables.output import section_html, section_markdown
 
     sections = sections_of(groups, outcomes, simulated)
@@ -186,7 +186,7 @@ def write(directory, name, content):
 
 
 def report(line, groups, outcomes, simulated):
-    """Prints the table, and writes what belongs to all recordings."""
+    """Prints the table, and writes the files about all recordings."""
     print(table.text(outcomes), end="")
     sections, markdown, sections_html = sections_by_group(groups, outcomes, simulated) if groups else ({}, "", "")
     if markdown:
@@ -225,7 +225,7 @@ def run(parser, arguments, line):
 
 
 def is_for_one(line):
-    """Whether the executable alone does it, as if this program were not there."""
+    """Whether the executable alone is enough, as if this program did not exist."""
     return not line.own and len(line.bags) < 2 and not any(map(os.path.isdir, line.bags))
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Evaluates drives that nobody here made, each with the data sheet of its sensor alone, beside simpler methods.
+"""Evaluates third-party drives, each configured only by the data sheet of its sensor, next to simpler methods.
 
-Prints a table, and what is broken of the limits below it; ends with status 1 when one is. Drives whose file is not
-there are left out by name.
+Prints a table, and below it the limits that are broken; ends with status 1 if one is. Drives whose file is not
+there are skipped by name.
 """
 
 import argparse
@@ -11,7 +11,7 @@ import shutil
 import statistics
 import sys
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from slipnav_campaign import engine  # noqa: E402
@@ -48,12 +48,12 @@ def parse_arguments():
     parser.add_argument("--data", default=os.path.join(here, "..", "..", "shared", "data"), metavar="DIR",
                         help="where the recordings and their configurations are (default %(default)s)")
     parser.add_argument("--config-dir", default=os.path.join(here, "..", "config"), metavar="DIR",
-                        help="where configurations are that lie not beside the recordings (default %(default)s)")
-    parser.add_argument("--only", metavar="TEXT", default="", help="drives whose name has this in it")
+                        help="where configurations are that are not next to the recordings (default %(default)s)")
+    parser.add_argument("--only", metavar="TEXT", default="", help="drives whose name contains this")
     parser.add_argument("--set", action="append", default=[], metavar="BLOCK.KEY=VALUE",
-                        help="one setting, for every drive; to try something out")
+                        help="one setting, for every drive; for experiments")
     engine.add_options(parser)
-    parser.add_argument("--out", metavar="FILE.md", help="the table goes here too")
+    parser.add_argument("--out", metavar="FILE.md", help="also write the table here")
     parser.add_argument("--evaluate", default=shutil.which("evaluate"), metavar="FILE", help="the executable")
     arguments = parser.parse_args()
     if not arguments.evaluate or not os.access(arguments.evaluate, os.X_OK):
@@ -72,7 +72,7 @@ def find(name, *folders):
 
 
 def task_of(drive, arguments):
-    """None where its files are not there."""
+    """None if its files are missing."""
     bag = find(drive.bag + ".bag", arguments.data)
     configurations = [find(name, arguments.data, arguments.config_dir) for name in drive.configurations]
     if bag is None or None in configurations:
@@ -81,7 +81,7 @@ def task_of(drive, arguments):
 
 
 def evaluate_all(drives, arguments):
-    """{drive: Evaluation, Failure, or None where its files are not there}"""
+    """{drive: Evaluation, Failure, or None if its files are missing}"""
     tasks = {drive: task_of(drive, arguments) for drive in drives}
     there = {drive: task for drive, task in tasks.items() if task is not None}
     with engine.pool_of(arguments) as pool:
@@ -125,7 +125,7 @@ def check(drive, outcome, limits):
                        LARGEST_RATIO * drive.wheels_and_gyro_pct + SPARE_PCT)
     else:
         limits.at_most(drive.bag, "final error m", metrics["horizontal_final_m"], drive.largest_final_m)
-        return  # truth of metres, with errors that last, says nothing about 3σ
+        return  # truth good to meters, with lasting errors, says nothing about 3σ
     limits.at_least(drive.bag, "coverage of 3σ %", metrics["coverage_3sigma_pct"], LEAST_COVERAGE_PCT)
     limits.at_least(drive.bag, "used stops", outcome.stops_used, outcome.stops_seen)
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Makes a recording that slipnav can evaluate from files of others: CSV, KITTI raw, EuRoC, TUM, RTKLIB.
+"""Makes a recording that slipnav can evaluate from other formats: CSV, KITTI raw, EuRoC, TUM, RTKLIB.
 
-Prints what has been written and what was odd about the files; ends with status 2 when a file cannot be understood.
+Prints what has been written and what was odd about the files; ends with status 2 if a file cannot be understood.
 """
 
 import argparse
@@ -9,7 +9,7 @@ import math
 import os
 import sys
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 import yaml  # noqa: E402
@@ -22,8 +22,8 @@ EPILOG = """columns:
   KEY=COLUMN[UNIT],...    COLUMN: a name of the file's header, or #3 for the third; UNIT: see below
   imu      t, wx, wy, wz, ax, ay, az
   wheels   t and each joint by its name (LEFT=enc_l[counts]; angles and rates may both be given), or t, v, yaw_rate
-  truth    t, lat, lon, h and maybe se, sn, su; or t, x, y, z and maybe qx, qy, qz, qw or roll, pitch, yaw
-  gps      t, lat, lon, h and maybe se, sn, su
+  truth    t, lat, lon, h and optionally se, sn, su; or t, x, y, z and optionally qx, qy, qz, qw or roll, pitch, yaw
+  gps      t, lat, lon, h and optionally se, sn, su
 units:
   time s ms us ns date; rates rad/s deg/s rpm; angles rad deg counts; acceleration m/s2 g; speed m/s km/h; length m mm
 examples:
@@ -34,7 +34,7 @@ examples:
   ./run import 2011_09_26_drive_0001_extract --oxts-speed --out kitti.bag
 """
 
-# What a YAML file may not say.
+# Options that are not allowed in a YAML file.
 COMMAND_LINE_ONLY = {"help", "source", "programs"}
 FILES = ["imu", "wheels", "truth", "gps"]
 BAG, ROS2 = ".bag", (".mcap", ".db3", ".mcap.zstd", ".db3.zstd")
@@ -75,15 +75,15 @@ def make_parser():
     parser.add_argument("--gps-columns", metavar="COLUMNS", help="its columns, if it is CSV")
     parser.add_argument("--gps-shift", type=number, default=0.0, metavar="S", help="seconds to add to its stamps")
     parser.add_argument("--oxts-speed", action="store_true",
-                        help="KITTI: take the forward speed of its satellite navigation for that of wheels")
+                        help="KITTI: use the forward speed of its satellite navigation as wheel speed")
     parser.add_argument("--shift-time", type=number, default=0.0, metavar="S", help="seconds to add to all stamps")
     parser.add_argument("--programs", default=os.path.dirname(os.path.abspath(sys.argv[0])), metavar="DIR",
-                        help="folder of slipnav's programs; default: that of this one")
+                        help="folder of slipnav's programs (default: that of this one)")
     return parser
 
 
 def read_description(path):
-    """Options from a YAML file; what it names lies beside it."""
+    """Options from a YAML file; paths in it are relative to it."""
     try:
         with open(path, encoding="utf-8") as file:
             content = yaml.safe_load(file)
@@ -92,7 +92,7 @@ def read_description(path):
     except yaml.YAMLError as error:
         raise Failure(f"{path}: is not YAML: {' '.join(str(error).split())}") from error
     if not isinstance(content, dict):
-        raise Failure(f"{path}: holds no keys, as in imu: imu.csv")
+        raise Failure(f"{path}: has no keys, as in imu: imu.csv")
     folder = os.path.dirname(path)
     return {str(key): os.path.join(folder, str(value)) if key in FILES + ["out"] else value
             for key, value in content.items()}
@@ -109,11 +109,11 @@ def apply_description(path, parser):
                           "options of the command line")
         action = known[key]
         if isinstance(value, (list, dict)) != (isinstance(value, dict) and key.endswith("-columns")):
-            raise Failure(f"{path}: {key} is no list or mapping")
+            raise Failure(f"{path}: {key} cannot be a list or mapping")
         if action.type is number:
             defaults[action.dest] = number_at(value, f"{path}: {key}")
         elif action.nargs == 0 and not isinstance(value, bool):
-            raise Failure(f"{path}: {key} is true or false")
+            raise Failure(f"{path}: {key} must be true or false")
         else:
             defaults[action.dest] = value
     parser.set_defaults(**defaults)
@@ -151,10 +151,10 @@ def shift_of(arguments, name):
 
 
 def refuse_recording(source, folder):
-    """What is a recording already needs no import, or a conversion that `check` names."""
+    """A recording needs no import, or a conversion that `check` names."""
     if not source.endswith(BAG):
         programs.run(folder, "check", source)
-    raise Failure(f"{source}: is a recording already: ./run check {source}")
+    raise Failure(f"{source}: is already a recording: ./run check {source}")
 
 
 def source_streams(arguments):
@@ -163,7 +163,7 @@ def source_streams(arguments):
     if source is None:
         return [], []
     if not os.path.exists(source):
-        raise Failure(f"{source}: is not there")
+        raise Failure(f"{source}: does not exist")
     if source.endswith((BAG,) + ROS2) or os.path.isfile(os.path.join(source, "metadata.yaml")):
         refuse_recording(source, arguments.programs)
     oxts, sensors = kitti.find(source), euroc.find(source)
@@ -211,9 +211,9 @@ def all_streams(arguments):
     twice = next((topic for topic in topics if topics.count(topic) > 1), None)
     if twice:
         sources = " and from ".join(stream.source for stream in streams if stream.topic == twice)
-        raise Failure(f"'{twice}' comes from {sources}: leave one out")
+        raise Failure(f"'{twice}' comes from {sources}: omit one")
     if "imu/data" not in topics:
-        raise Failure("there is no IMU: name its file by --imu, or a folder of KITTI or EuRoC")
+        raise Failure("there is no IMU: give its file by --imu, or a folder of KITTI or EuRoC")
     return sorted(streams, key=lambda stream: stream.topic != "imu/data"), advice
 
 
@@ -224,9 +224,9 @@ def report(out, streams, advice):
     print(recording.summary(out, streams))
     topics = {stream.topic for stream in streams}
     if not topics & {"joint_states", "wheel_odometry"}:
-        print("no wheels: evaluate needs them, name their file by --wheels")
+        print("no wheels: evaluate needs them, give their file by --wheels")
     if not any(topic.startswith("truth/") for topic in topics):
-        print("no truth: evaluate tells no errors without one, name its file by --truth")
+        print("no truth: evaluate gives no errors without it, give its file by --truth")
     print("\n".join(advice + [f"next: ./run check {out}"]))
 
 

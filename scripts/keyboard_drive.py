@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Drives a rover by the keyboard: publishes cmd_vel_in (another topic: cmd_vel_in:=TOPIC), ten times a second.
 
-  w, arrow up       ahead, as long as the key is held      + faster
+  w, arrow up       forward, as long as the key is held    + faster
   s, arrow down     back                                   - slower
   a, arrow left     turn left                              space  stop
   d, arrow right    turn right                             q      end
@@ -18,7 +18,7 @@ import rospy
 from geometry_msgs.msg import Twist
 
 RATE_HZ = 10.0
-# A held key repeats itself after half a second; until then it counts as held.
+# A held key repeats after half a second; until then it counts as held.
 HELD_S = 0.6
 SPEEDS_MPS = (0.2, 0.4, 0.6, 0.8)
 TURN_RADPS = 0.3
@@ -27,7 +27,7 @@ MOTIONS = {"w": (1, 0), "\x1b[A": (1, 0), "s": (-1, 0), "\x1b[B": (-1, 0),
 
 
 class Keyboard:
-    """What is pressed, from a terminal that otherwise waits for a whole line."""
+    """Key presses, from a terminal that otherwise waits for a whole line."""
 
     def __enter__(self):
         self.settings = termios.tcgetattr(sys.stdin)
@@ -47,7 +47,7 @@ class Keyboard:
 
 
 class Driver:
-    """Turns keys into a motion that ends when they are let go."""
+    """Converts keys to a motion that ends when they are released."""
 
     def __init__(self):
         self.speed = 1

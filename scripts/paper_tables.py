@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The paper's Tables I and II and its figure of stop intervals from simulated drives, beside the paper's own numbers.
+"""The paper's Tables I and II and its figure of stop intervals from simulated drives, next to the paper's own numbers.
 
-Prints the tables, and writes tables.md, tables.json, tables.html and the figures. Ends with status 1 when a drive
-failed; the tables then hold the others, and say which one it was.
+Prints the tables, and writes tables.md, tables.json, tables.html and the figures. Ends with status 1 if a drive
+failed; the tables then contain the others, and say which one it was.
 """
 
 import argparse
@@ -14,7 +14,7 @@ import matplotlib
 
 matplotlib.use("Agg")  # no display needed
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from slipnav_campaign import engine  # noqa: E402
@@ -93,7 +93,7 @@ def all_outcomes(arguments, chosen, options):
     drives = list(dict.fromkeys(drive for section in chosen.values() for drive in section.drives(options)))
     with engine.pool_of(arguments) as pool:
         outcomes = drive_all(arguments.simulate, drives, pool)
-        if Clock.NAME in chosen:  # what the clocks do follows from what the others did
+        if Clock.NAME in chosen:  # the periodic drives follow from the results of the others
             clocks = list(dict.fromkeys(drive for drive in Clock.follow_up(outcomes, options) if drive not in outcomes))
             outcomes.update(drive_all(arguments.simulate, clocks, pool))
     return outcomes

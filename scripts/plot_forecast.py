@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs the executable `forecast` and draws what came of it where --report FILE.png asks for that.
+"""Runs the executable `forecast` and plots the result if --report FILE.png is given.
 
 All other arguments are those of the executable.
 """
@@ -12,10 +12,10 @@ import subprocess
 import sys
 import tempfile
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
-HELP = "  --report FILE.png             a picture of samples and forecast\n"
+HELP = "  --report FILE.png             a plot of samples and forecast\n"
 
 
 class Parser(argparse.ArgumentParser):
@@ -43,7 +43,7 @@ def option(words, name):
 
 
 def samples_of(words):
-    """The word that is neither an option of the executable nor the value of one: all of them take one."""
+    """The argument that is neither an option of the executable nor its value: all of them take one."""
     return next(word for before, word in zip([""] + words, words)
                 if not word.startswith("--") and (not before.startswith("--") or "=" in before))
 
@@ -67,7 +67,7 @@ def run(words):
             text = file.read()
     if out == "-":
         print(text, end="")
-    from slipnav_report.slip_picture import picture, read_samples  # takes a second, which a summary need not wait for
+    from slipnav_report.slip_picture import picture, read_samples  # takes a second, which a summary does not need
     png = picture(read_samples(samples_of(others)), json.loads(text))
     with open(own.report, "wb") as file:
         file.write(png)

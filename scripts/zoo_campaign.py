@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Drives over the zoo of simulated worlds: every world with and without stops, a grid, or random configurations.
 
-Prints a table, and what is broken of its limits; ends with status 1 when one is.
+Prints a table and the broken limits; ends with status 1 if there are any.
 """
 
 import argparse
@@ -10,7 +10,7 @@ import shutil
 import subprocess
 import sys
 
-# Beside this file, also where a build folder runs it through a stand-in.
+# The packages next to this file, also when a build folder runs it through a wrapper.
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 
 from slipnav_campaign import engine  # noqa: E402
@@ -33,7 +33,7 @@ def parse_arguments():
     parser.add_argument("--cells", type=int, default=grid.CELLS, metavar="N", help="of the grid (default %(default)s)")
     parser.add_argument("--adversarial", type=int, metavar="N", help="N drives with random configurations")
     engine.add_options(parser)
-    parser.add_argument("--out", metavar="DIR", help="the table and the broken limits go here too")
+    parser.add_argument("--out", metavar="DIR", help="also write the table and the broken limits here")
     parser.add_argument("--simulate", default=shutil.which("simulate"), metavar="FILE", help="the executable")
     arguments = parser.parse_args()
     if not arguments.simulate or not os.access(arguments.simulate, os.X_OK):

@@ -1,1 +1,1 @@
-"""How `./run evaluate`, `tables`, `zoo` and `foreign` do many tasks at once: on this machine, or on a cluster."""
+"""How `./run evaluate`, `tables`, `zoo` and `foreign` run many tasks at once: on this machine, or on a cluster."""

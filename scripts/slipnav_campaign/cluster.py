@@ -1,4 +1,4 @@
-"""Tasks on the workers of a Dask scheduler. They need the same paths as here, and nothing of this project in memory."""
+"""Tasks on the workers of a Dask scheduler. They need the same paths as here, but not this project in memory."""
 
 import logging
 import os
@@ -17,7 +17,7 @@ MISSING = "--scheduler needs Dask, which is not installed: sudo apt-get install 
 
 
 class SchedulerError(ConnectionError):
-    """There is no cluster, or none any more; one line."""
+    """There is no cluster, or it is gone; one line."""
 
 
 def look_at_scheduler(client):
@@ -98,7 +98,7 @@ class Cluster:
             say(f"worker {address} is lost, {len(workers)} left" + ("" if workers else "; waiting for another"))
             lost |= {key for key in self.workers[address][1] if self.is_unfinished(key, workers)}
         for key in sorted(lost & set(self.names)):
-            say(f"{self.names[key]}: its worker was lost; it is run again")
+            say(f"{self.names[key]}: its worker was lost; it is rerun")
         self.workers, self.losses = workers, losses
 
     def is_unfinished(self, key, workers):

@@ -21,12 +21,12 @@ def add_options(parser, positive_count=int):
     parser.add_argument("--jobs", type=positive_count, default=os.cpu_count() or 1, metavar="N",
                         help="drives at the same time (default: one per core)")
     parser.add_argument("--scheduler", metavar="ADDRESS",
-                        help="of a Dask scheduler, whose workers take the place of the cores of this machine")
+                        help="of a Dask scheduler, whose workers replace the cores of this machine")
 
 
 @contextlib.contextmanager
 def pool_of(arguments):
-    """The workers that were asked for. When it is left, also by an interruption, nothing runs here any more."""
+    """The requested workers. On exit, also by an interrupt, nothing keeps running here."""
     pool = Cluster(arguments.scheduler) if arguments.scheduler else LocalPool(arguments.jobs)
     try:
         yield pool
@@ -44,8 +44,8 @@ def heed_signals():
 
 
 def run_all(tasks, pool, what="drives"):
-    """Outcome or Failure of each task, in their order. What is lost with a process is done once more."""
-    waiting = collections.deque(sorted(range(len(tasks)), key=lambda number: -tasks[number].weight))  # long ones first
+    """Outcome or Failure of each task, in order. A task lost with its process is run once more."""
+    waiting = collections.deque(sorted(range(len(tasks)), key=lambda number: -tasks[number].weight))  # longest first
     running, outcomes, repeated = {}, [None] * len(tasks), set()
     progress = Progress(tasks, what)
     try:
@@ -57,7 +57,7 @@ def run_all(tasks, pool, what="drives"):
                 number = running.pop(future)
                 outcome = pool.outcome(future)
                 if isinstance(outcome, Lost) and number not in repeated:
-                    progress.say(f"{tasks[number].name}: {outcome}; it is run again")
+                    progress.say(f"{tasks[number].name}: {outcome}; it is rerun")
                     repeated.add(number)
                     waiting.appendleft(number)
                     continue

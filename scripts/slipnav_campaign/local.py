@@ -1,4 +1,4 @@
-"""Tasks on this machine: a thread for each core, which waits for the program that it has started."""
+"""Tasks on this machine: a thread per core, which waits for the program it has started."""
 
 import concurrent.futures
 import threading
@@ -27,14 +27,14 @@ class LocalPool(Caller):
         return self.pool.submit(perform, task, self)
 
     def wait(self, futures, say):
-        """Those of them that are done, one at least. Nothing is to be said here: no worker gets lost."""
+        """Those of them that are done, at least one. No messages here: no worker gets lost."""
         return concurrent.futures.wait(futures, return_when=concurrent.futures.FIRST_COMPLETED).done
 
     def outcome(self, future):
         return future.result()
 
     def close(self):
-        """Nothing new begins, and what is under way ends."""
+        """Starts nothing new, and ends what is running."""
         with self.lock:
             self.cancelled = True
             for process in self.processes:

@@ -1,4 +1,4 @@
-"""A bar on a terminal; where there is none, a line now and then."""
+"""A bar on a terminal; otherwise a line now and then."""
 
 import sys
 import time
@@ -8,7 +8,7 @@ STEP_WITHOUT_TERMINAL = 0.1  # of all the work, between two lines of progress
 
 
 class Progress:
-    """Counts weights, with which the time of a task goes."""
+    """Counts weights, to which the time of a task is proportional."""
 
     def __init__(self, tasks, what, stream=None):
         self.stream = stream or sys.stderr
@@ -34,7 +34,7 @@ class Progress:
         self.stream.flush()
 
     def say(self, text):
-        """A line of its own, above the bar."""
+        """A separate line, above the bar."""
         self.stream.write(("\r\033[K" if self.stream.isatty() else "") + text + "\n")
         self.stream.flush()
 

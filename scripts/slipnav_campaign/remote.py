@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Does one task of a campaign for a worker of a cluster: reads it from the standard input, writes its outcome.
+"""Runs one task of a campaign for a worker of a cluster: reads it from standard input, writes its outcome.
 
-A process of its own, so that a worker needs to know nothing of this project and never holds an old version of it.
+A separate process, so that a worker needs nothing of this project and never keeps an old version of it.
 """
 
 import ctypes
@@ -11,7 +11,7 @@ import signal
 import subprocess
 import sys
 
-# The packages lie beside the one of this file.
+# The packages are next to the one of this file.
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 from slipnav_campaign.task import Caller, Failure, perform  # noqa: E402
@@ -21,7 +21,7 @@ ENVIRONMENT = ("PATH", "LD_LIBRARY_PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH")
 
 
 def die_with_parent():
-    """Of a worker that is killed no process goes on, which would write beside the one that takes its place."""
+    """A killed worker leaves no process running, which would write alongside its replacement."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
@@ -31,7 +31,7 @@ class RemoteCaller(Caller):
 
 
 def packed(task):
-    """A task with what it needs of this process: its folder, and where ROS is."""
+    """A task with what it needs from this process: its folder, and the ROS environment."""
     environment = {name: value for name, value in os.environ.items() if name in ENVIRONMENT or name.startswith("ROS_")}
     return pickle.dumps((os.getcwd(), environment, pickle.dumps(task)))
 

@@ -1,4 +1,4 @@
-"""What a campaign consists of, and how one piece of it is done, wherever that is."""
+"""What a campaign consists of, and how one task of it is run, wherever that is."""
 
 import os
 import signal
@@ -14,7 +14,7 @@ class Failure(Exception):
 
 
 class Lost(Failure):
-    """What did the task was killed from outside, for example where memory ran out: it may go well another time."""
+    """The process was killed from outside, for example when memory ran out: it may succeed another time."""
 
 
 @dataclass(frozen=True)

@@ -1,1 +1,1 @@
-"""What `./run evaluate` does with several recordings: all of them on all cores, one table, one page."""
+"""`./run evaluate` with several recordings: on all cores, one table, one page."""

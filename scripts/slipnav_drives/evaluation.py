@@ -1,4 +1,4 @@
-"""One recording through the executable `evaluate`, and what is read from what it says and leaves."""
+"""One recording through the executable `evaluate`, and what is read from its output and files."""
 
 import json
 import os
@@ -17,12 +17,12 @@ PROGRAM = "evaluate: "
 
 @dataclass(frozen=True)
 class Order:
-    """What is the same for all recordings."""
+    """Settings shared by all recordings."""
 
     executable: str
     options: Tuple[str, ...]  # for the executable
     out: Optional[str]  # directory of all
-    with_stops: bool  # times between stops are wanted
+    with_stops: bool  # whether times between stops are needed
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def evaluate(call, recording, order):
 
 
 def evaluate_into(directory, call, recording, order):
-    for name in ("metrics.json", "report.html"):  # of an earlier run, which this one may not replace
+    for name in ("metrics.json", "report.html"):  # of an earlier run, which this one may not overwrite
         if os.path.exists(os.path.join(directory, name)):
             os.remove(os.path.join(directory, name))
     output, errors = call(command(recording, order) + ["--out", directory])
@@ -76,7 +76,7 @@ def evaluation_of(recording, output, errors, metrics_json, stops):
     rows = tuple(renamed(line, recording) for line in lines[HEAD_LINES:] if not line.startswith(remark))
     remarks = tuple(recording.name + ": " + line[len(remark):] for line in lines if line.startswith(remark))
     if not rows or not remarks:
-        raise Failure("evaluate said nothing")
+        raise Failure("evaluate printed nothing")
     return Evaluation(tuple(lines[:HEAD_LINES]), rows, remarks, findings(errors.splitlines()), metrics_json, stops)
 
 
@@ -90,7 +90,7 @@ def renamed(line, recording):
 
 
 def findings(lines):
-    """What the program said, without what said that of its plots."""
+    """What the program printed, without the lines about its plots."""
     return tuple(line[len(PROGRAM):] for line in lines if line.startswith(PROGRAM))
 
 

@@ -14,9 +14,9 @@ from slipnav_tables.section import NOT_KNOWN, Figure, Section, Table, figures_of
 from slipnav_tables.statistics import median, worst  # noqa: E402
 
 ERRORS = tuple(key for _, key, _ in accuracy.COLUMNS_1 if key not in ("distance_m", "stop_count", "duration_s"))
-TITLES = {"forecast": f"Time to the stop as forecast, {paper.COLLECTION_S:g} s after a stop",
-          "real": "Real time between stops"}
-DOUBT = ("Every interval counts by itself, for a group with a single recording has no other values. Those of one drive "
+TITLES = {"forecast": f"Forecast time to the stop, {paper.COLLECTION_S:g} s after a stop",
+          "real": "Actual time between stops"}
+DOUBT = ("Every interval counts separately, since a group with a single recording has no other values. Those of one drive "
          "are not independent: the true p values are larger.")
 
 
@@ -47,14 +47,14 @@ def accuracy_section(groups, outcomes, simulated):
                         + [NOT_KNOWN if kind == "rms" and key not in ERRORS else number(data[name][key][kind], decimals)
                            for _, key, decimals in accuracy.COLUMNS_1])
     rows += [[f"simulated, {name}", "", "median (max)"] + accuracy.simulated_cells(figures, accuracy.COLUMNS_1)
-             for name, figures in simulated.get("table1", {}).items()]
+             for name, figures in simulated.get("table1", {}).items() if name != accuracy.BY_METHOD]
     rows += [[f"paper, {row.name}", "1", ""] + accuracy.paper_cells(row, accuracy.COLUMNS_1) for row in paper.TABLE_1]
     heads = ["group", "drives", ""] + [head for head, _, _ in accuracy.COLUMNS_1]
     notes = ["Over the recordings of a group, each of which counts once. The paper's rows are single drives."]
     for name, members in groups.items():
         without = [one for one in judged(members, outcomes) if outcomes[one].metrics["enu_error_pct"] is None]
         if without:
-            notes.append(f"{name}: no error can be told of {names_text(without)}, for want of truth.")
+            notes.append(f"{name}: no errors for {names_text(without)}: no truth.")
     return Section("Table I: accuracy by group", [Table(heads, rows)], notes, data=data)
 
 
@@ -71,26 +71,26 @@ def stops_section(groups, outcomes, simulated):
     rows += [[f"paper, {row.name}", "1", row.policy] + accuracy.paper_cells(row, accuracy.COLUMNS_2)
              for row in paper.TABLE_2]
     heads = ["group", "drives", "stops by"] + [head for head, _, _ in accuracy.COLUMNS_2]
-    notes = ["Median over the recordings, in brackets the largest. How the rover was stopped, a recording does not "
+    notes = ["Median over the recordings, the largest in brackets. How the rover was stopped, a recording does not "
              "say."]
     return Section("Table II: stops by group", [Table(heads, rows)], notes, data=data)
 
 
 def seconds_of(stops, kind):
-    """Times of one drive; a forecast beyond its horizon counts with that."""
+    """Times of one drive; a forecast beyond its horizon counts as the horizon."""
     if kind == "real":
         return list(stops.real_s)
     return [min(value, stops.horizon_s) for value in stops.forecast_s]
 
 
 def kind_data(groups, outcomes, kind):
-    """({group: its values}, whether each interval counts by itself, notes). Groups without a value are left out."""
+    """({group: its values}, whether each interval counts by itself, notes). Groups without a value are omitted."""
     found, notes = {}, []
     for name, members in groups.items():
         times = {one: seconds_of(outcomes[one].stops, kind) for one in judged(members, outcomes)}
         without = [one for one in times if not times[one]]
         if without:
-            notes.append(f"{TITLES[kind]}, {name}: not to be told of {names_text(without)}, "
+            notes.append(f"{TITLES[kind]}, {name}: unknown for {names_text(without)}, "
                          + ("which have no two stops." if kind == "real" else
                             f"where no forecast follows a stop by {paper.COLLECTION_S:g} s before the next."))
         if len(without) < len(times):
@@ -107,7 +107,7 @@ def kind_data(groups, outcomes, kind):
 
 
 def beside(kinds, simulated):
-    """The same with the grounds of simulated drives, which belong to no test."""
+    """The same with the grounds of simulated drives, which are not part of any test."""
     found = simulated.get("intervals", {})
     return {kind: {**data, **{f"{ground}, simulated": values
                               for ground, values in found.get(kind, {}).get("terrains", {}).items()}}
@@ -120,7 +120,7 @@ def intervals_section(groups, outcomes, simulated):
         data, single, said = kind_data(groups, outcomes, kind)
         notes += said
         if not data:
-            notes.append(f"{title}: cannot be told of any group.")
+            notes.append(f"{title}: unknown for every group.")
             continue
         kinds[kind], titles[kind] = data, title
         tests[kind] = intervals.tests_of(data) if len(data) > 1 else {"anova_p": None, "tukey_p": {}}

@@ -1,4 +1,4 @@
-"""index.html: all recordings on one page that needs nothing else, with links to their reports."""
+"""index.html: all recordings on one self-contained page, with links to their reports."""
 
 import html
 import os
@@ -35,7 +35,7 @@ img { max-width: 100%; background: #fff }
 
 
 def linked(recording, directory):
-    """Its name, as a link to what there is of it."""
+    """Its name, as a link to its results."""
     name = html.escape(recording.name)
     for file in ("report.html", "metrics.json"):
         if os.path.exists(os.path.join(directory, recording.name, file)):
@@ -66,7 +66,7 @@ def index_html(outcomes, directory, group_of, sections_html):
     rows = "".join(row(recording, outcomes[recording], directory, group_of.get(recording, ""))
                    for recording in worst_first(outcomes))
     failed = sum(isinstance(outcome, Failure) for outcome in outcomes.values())
-    count = f"{len(outcomes)} recordings, {failed} failed. The worst come first."
+    count = f"{len(outcomes)} recordings, {failed} failed. Worst first."
     return (f"<!DOCTYPE html><html lang=en><head><meta charset=utf-8><title>slipnav: recordings</title>"
             f"<meta name=viewport content='width=device-width'><style>{STYLE}</style></head><body><h1>Recordings</h1>"
             f"<p>{count} All figures of each: <a href=rows.csv>rows.csv</a>.</p>"

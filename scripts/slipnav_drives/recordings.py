@@ -1,4 +1,4 @@
-"""Which recordings there are: files and folders as they were named, parts of a split recording joined."""
+"""The recordings: files and folders as named, with the parts of a split recording joined."""
 
 import os
 import re
@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Dict, Tuple
 
 ENDING = ".bag"
-# Of folders: what is no recording of ROS 1, by its ending.
-LEFT_OUT = {".mcap": "a recording of ROS 2; convert it, for example by rosbags-convert",
-            ".db3": "a recording of ROS 2; convert it, for example by rosbags-convert",
-            ".bag.active": "it was not finished; rosbag reindex may mend it, without the ending .active"}
+# In folders: files that are not ROS 1 recordings, by their ending.
+LEFT_OUT = {".mcap": "a ROS 2 recording; convert it, for example with rosbags-convert",
+            ".db3": "a ROS 2 recording; convert it, for example with rosbags-convert",
+            ".bag.active": "it was not finished; rosbag reindex may repair it, without the ending .active"}
 LONGEST_GAP_S = 3.0  # from the last message of a part to the first of the next
 LONGEST_OVERLAP_S = 0.5  # messages of several sensors are not written in perfect order
 EXPECTED = 3  # messages of a topic in a part, by its rate in the other: fewer may be none
@@ -36,12 +36,12 @@ class Span:
 
 
 def files_in(folder, say):
-    """Recordings in it and below. Raises ValueError where there is none."""
+    """Recordings in it and below. Raises ValueError if there are none."""
     inside = sorted(os.path.join(path, name) for path, _, names in os.walk(folder) for name in names)
     for path in inside:
         for ending, cause in LEFT_OUT.items():
             if path.endswith(ending):
-                say(f"{path} is left out: {cause}")
+                say(f"{path} is skipped: {cause}")
     found = [path for path in inside if path.endswith(ENDING)]
     if not found:
         raise ValueError(f"no recording (*{ENDING}) in the folder '{folder}'")
@@ -49,7 +49,7 @@ def files_in(folder, say):
 
 
 def files_of(arguments, say):
-    """Files, each once, folders by what is in them."""
+    """Files, each once, with folders replaced by their contents."""
     files = {}
     for argument in arguments:
         for file in files_in(argument, say) if os.path.isdir(argument) else [argument]:
@@ -78,7 +78,7 @@ def lacks(span, other):
 
 
 def continues(span, before):
-    """Whether it is what was recorded next."""
+    """Whether it was recorded next."""
     return (-LONGEST_OVERLAP_S <= span.begin - before.end <= LONGEST_GAP_S
             and span.begin > before.begin and span.end > before.end
             and bool(set(span.topics) & set(before.topics)) and not lacks(span, before) and not lacks(before, span))
@@ -90,12 +90,12 @@ def stem(path):
 
 
 def family(path):
-    """The name without number and time of a part."""
+    """The name without the number and time of a part."""
     return re.sub(r"(_?\d{4}(-\d\d){5})?_\d+$", "", stem(path))
 
 
 def nearest(path, others, spans):
-    """Of those that would do the nearest with that name; the only one of another name; None."""
+    """Of the candidates the nearest with that name; the only one of another name; None."""
     kin = [other for other in others if family(other) == family(path)]
     if kin:
         return min(kin, key=lambda other: abs(spans[other].begin - spans[path].begin))
@@ -118,7 +118,7 @@ def successors(files, spans, say):
 
 
 def joined(files, say):
-    """Tuples of parts, in the order of the first that was named."""
+    """Tuples of parts, in the order of the first one named."""
     spans = {file: span_of(file) for file in files}
     following = successors(files, spans, say)
     preceding = {other: one for one, other in following.items()}
@@ -136,7 +136,7 @@ def joined(files, say):
 
 
 def named(groups_of_parts):
-    """Recordings by the name of the file, with that of the folder where several have it."""
+    """Recordings by file name, with the folder name if several share it."""
     names = [stem(parts[0]) if len(parts) == 1 else re.sub(r"_\d+$", "", stem(parts[0])) or stem(parts[0])
              for parts in groups_of_parts]
     recordings, taken = [], set()

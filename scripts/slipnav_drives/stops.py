@@ -1,4 +1,4 @@
-"""Times between the stops of a recorded drive, real and as forecast."""
+"""Times between the stops of a recorded drive, actual and forecast."""
 
 import os
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from slipnav_tables.drive import driving_stretches, probed_times, read_columns
 @dataclass(frozen=True)
 class StopTimes:
     real_s: Tuple[float, ...]  # driving from one stop to the next
-    forecast_s: Tuple[float, ...]  # time to the stop as forecast some seconds after a stop; infinite: not within it
+    forecast_s: Tuple[float, ...]  # forecast time to the stop, some seconds after a stop; infinite: beyond it
     horizon_s: float  # of the forecast
 
 

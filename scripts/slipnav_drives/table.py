@@ -12,7 +12,7 @@ from .evaluation import NAME_WIDTH, findings, reason
 TIMINGS = ("forecast_ms_p50", "forecast_ms_p99", "cpu_s", "realtime_factor")
 FOUND = ("problems", "alarms")
 FAILED = "failed"
-# How a verdict begins or what it has in it, the worst first.
+# Beginning or content of a verdict, worst first.
 VERDICTS = (FAILED, "over-confident", "worse than wheels and gyro", "stops seen but not used", "cautious", "not judged",
             "consistent")
 
@@ -24,7 +24,7 @@ def verdict_of(outcome):
 
 
 def text(outcomes):
-    """As `evaluate` prints one recording: the header, a row of each, the verdict of each."""
+    """Like the output of `evaluate` for one recording: the header, a row and the verdict for each."""
     heads = [outcome.head for outcome in outcomes.values() if not isinstance(outcome, Failure)]
     lines, remarks = list(heads[0]) if heads else [], []
     for recording, outcome in outcomes.items():
@@ -37,7 +37,7 @@ def text(outcomes):
 
 
 def found_text(outcome, kind):
-    """Its problems or alarms; those of a failure as they were said."""
+    """Its problems or alarms; those of a failure as printed."""
     if isinstance(outcome, Failure):
         mark = kind[:-1] + ": "
         return "; ".join(line[len(mark):] for line in findings(outcome.said) if line.startswith(mark))
@@ -45,7 +45,7 @@ def found_text(outcome, kind):
 
 
 def cells_of(outcome):
-    """{column: text} of metrics.json, numbers with all the digits that stand there."""
+    """{column: text} of metrics.json, numbers with all their digits."""
     cells = {}
     if not isinstance(outcome, Failure):
         for key, value in json.loads(outcome.metrics_json, parse_float=str, parse_int=str).items():

@@ -1,4 +1,4 @@
-"""Which column of a file is what, in which unit: "t=time[ns],wx=gyro_x[deg/s]", or the same keys in YAML."""
+"""Meaning and unit of each column of a file:  "t=time[ns],wx=gyro_x[deg/s]", or the same keys in YAML."""
 
 import difflib
 import re
@@ -12,7 +12,7 @@ from slipnav_import.failure import Failure
 class Column:
     key: str  # what it is: t, wx, or the name of a joint
     name: str  # of the column in the file, or #NUMBER from 1
-    unit: Optional[str]  # as given; None: as the file's header says, or the usual one
+    unit: Optional[str]  # as given; None: from the file's header, or the default
 
     @property
     def number(self):
@@ -20,7 +20,7 @@ class Column:
 
 
 def split_unit(text):
-    """Name and unit of "gyro_x [deg/s]"; None where no unit is given."""
+    """Name and unit of "gyro_x [deg/s]"; None if no unit is given."""
     match = re.fullmatch(r"(.*?)\s*\[([^\[\]]*)\]", text.strip())
     return (match.group(1).strip(), match.group(2).strip()) if match else (text.strip(), None)
 
@@ -33,7 +33,7 @@ def column(key, text, where):
 
 
 def parse(given, where):
-    """Columns of a text, or of a mapping of YAML; a key may come twice, as a list in YAML."""
+    """Columns from text, or from a YAML mapping; a key may occur twice, as a list in YAML."""
     if isinstance(given, dict):
         pairs = [(str(key), text) for key, texts in given.items()
                  for text in (texts if isinstance(texts, list) else [texts])]
@@ -48,13 +48,13 @@ def parse(given, where):
 
 
 def require_keys(columns, known, required, where):
-    """Each key is known, none comes twice, and all that are required are there."""
+    """Checks that each key is known, none occurs twice, and all required ones are present."""
     keys = [column.key for column in columns]
     for key in keys:
         if key not in known:
             raise Failure(f"{where}: '{key}' is not one of {', '.join(known)}{nearest(key, known)}")
         if keys.count(key) > 1:
-            raise Failure(f"{where}: '{key}' comes twice")
+            raise Failure(f"{where}: '{key}' is given twice")
     missing = [key for key in required if key not in keys]
     if missing:
         raise Failure(f"{where}: lacks {', '.join(missing)}")

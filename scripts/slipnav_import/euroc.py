@@ -20,10 +20,10 @@ TRUTH_FOLDERS = ["state_groundtruth_estimate0", "mocap0", "vicon0"]
 VELOCITY = TRUTH_KEYS[8:]
 TRUTH_KINDS = {**tables.POSE_KINDS, **{key: (units.SPEED,) for key in VELOCITY}}
 RATE_TOLERANCE = 0.1
-MOST_OF_ROTATION = 1e-3  # that a matrix may be off being one
+MOST_OF_ROTATION = 1e-3  # tolerance of a rotation matrix
 PER_ROOT_HOUR = 60.0
 RADPS_IN_DEG_PER_H = math.degrees(1.0) * 3600.0
-# Of sensor.yaml, what slipnav calls it, and the factor from SI.
+# Key in sensor.yaml, slipnav's name for it, and the factor from SI.
 NOISE = {
     "accelerometer_noise_density": ("accel_noise_mps_per_sqrt_h", PER_ROOT_HOUR),
     "gyroscope_noise_density": ("gyro_noise_deg_per_sqrt_h", math.degrees(1.0) * PER_ROOT_HOUR),
@@ -99,7 +99,7 @@ def rotation(xyzw):
 
 
 def quaternion(matrix):
-    """x, y, z, w of a rotation matrix: of four ways the one that divides by the largest number."""
+    """x, y, z, w of a rotation matrix: of four formulas the one that divides by the largest number."""
     m = matrix
     squares = 1.0 + np.array([m[0, 0] - m[1, 1] - m[2, 2], m[1, 1] - m[0, 0] - m[2, 2], m[2, 2] - m[0, 0] - m[1, 1],
                               np.trace(m)])
@@ -112,7 +112,7 @@ def quaternion(matrix):
 
 
 def read_sensor(path):
-    """sensor.yaml, also with the head and the types of OpenCV."""
+    """sensor.yaml, also with the header and the types of OpenCV."""
     lines = [line.replace("!!opencv-matrix", "") for _, line in open_lines(path) if not line.startswith("%")]
     try:
         sensor = yaml.safe_load("\n".join(lines))
@@ -138,20 +138,20 @@ def transform_stream(t_bs, path, stamp):
     try:
         matrix = np.array(t_bs["data"] if isinstance(t_bs, dict) else t_bs, dtype=float).reshape(4, 4)
     except (KeyError, TypeError, ValueError) as error:
-        raise Failure(f"{path}: T_BS is no matrix of 4 x 4 numbers") from error
+        raise Failure(f"{path}: T_BS is not a matrix of 4 x 4 numbers") from error
     turned = matrix[:3, :3]
     if np.abs(turned @ turned.T - np.eye(3)).max() > MOST_OF_ROTATION or np.linalg.det(turned) < 0:
-        raise Failure(f"{path}: T_BS holds no rotation")
+        raise Failure(f"{path}: T_BS does not contain a rotation")
     return Stream("tf_static", path, [stamp], lambda _, at: messages.transform(
         at, messages.BASE, messages.IMU_FRAME, matrix[:3, 3], quaternion(turned)))
 
 
 def noise_advice(sensor, path):
-    """Lines of a configuration that hold the noise of the sensor."""
+    """Configuration lines with the noise of the sensor."""
     found = [(name, number_of(sensor, key, path) * factor) for key, (name, factor) in NOISE.items()
              if sensor.get(key) is not None]
     lines = [f"    {name}: {value:.6g}" for name, value in found]
-    advice = [f"noise by {path}, for your configuration:", "imu:", "  noise:"] + lines if lines else []
+    advice = [f"noise from {path}, for your configuration:", "imu:", "  noise:"] + lines if lines else []
     if "T_BS" in sensor:
-        advice += ["where the IMU is, by the same, is in /tf_static; to use it:", "frames:", "  extrinsics: tf"]
+        advice += ["the pose of the IMU from it is in /tf_static; to use it:", "frames:", "  extrinsics: tf"]
     return advice

@@ -1,4 +1,4 @@
-"""What keeps from importing."""
+"""What prevents an import."""
 
 
 class Failure(Exception):

@@ -46,7 +46,7 @@ def read_numbers(path):
 
 
 def read_rows(folder, shift_ns):
-    """Stamps and numbers of all files that are there, and notes."""
+    """Stamps and numbers of all existing files, and notes."""
     stamps = read_stamps(os.path.join(folder, "timestamps.txt"), shift_ns)
     paths = [os.path.join(folder, "data", f"{i:010d}.txt") for i in range(len(stamps))]
     there = [i for i, path in enumerate(paths) if os.path.isfile(path)]
@@ -54,16 +54,16 @@ def read_rows(folder, shift_ns):
     good = [row for row in rows if all(abs(number) < float("inf") for number in row[1])]
     notes = []
     if len(there) < len(paths):
-        notes.append(f"{folder}: {counted(len(paths) - len(there), 'file')} of {len(paths)} stamps not there: left out")
+        notes.append(f"{folder}: {counted(len(paths) - len(there), 'file')} of {len(paths)} stamps missing: skipped")
     if len(good) < len(rows):
-        notes.append(f"{folder}: {counted(len(rows) - len(good), 'file')} with NaN left out")
+        notes.append(f"{folder}: {counted(len(rows) - len(good), 'file')} with NaN skipped")
     if not good:
-        raise Failure(f"{folder}: has no data: {os.path.join('data', '0000000000.txt')} is the first that is wanted")
+        raise Failure(f"{folder}: has no data: {os.path.join('data', '0000000000.txt')} is the first one needed")
     return [stamp for stamp, _ in good], [numbers for _, numbers in good], notes
 
 
 def streams(folder, shift_ns=0, speed_as_wheels=False):
-    """IMU and truth; the forward speed in place of wheels only when asked, since it is none of wheels."""
+    """IMU and truth; the forward speed in place of wheels only when asked, since it is not from wheels."""
     stamps, rows, notes = read_rows(folder, shift_ns)
 
     def imu(i, stamp):
@@ -80,11 +80,11 @@ def streams(folder, shift_ns=0, speed_as_wheels=False):
     for other in result[1:]:
         other.notes = []  # they are those of the IMU
     if speed_as_wheels:
-        source = f"{folder}, vf: speed of its inertial and satellite navigation, not of wheels"
+        source = f"{folder}, vf: speed from its inertial and satellite navigation, not from wheels"
         result.append(Stream("wheel_odometry", source, stamps, speed))
         result[-1].notes = []
     if 0.0 < result[0].rate_hz < LEAST_RATE_HZ:
-        notes.append(f"{folder}: the IMU has {result[0].rate_hz:.1f} Hz, and slipnav wants {LEAST_RATE_HZ:.0f} or "
+        notes.append(f"{folder}: the IMU has {result[0].rate_hz:.1f} Hz, and slipnav needs {LEAST_RATE_HZ:.0f} or "
                      "more: the data set has the same drive unsynchronized, at 100 Hz (extract)")
     result[0].notes = notes + result[0].notes
     return result

@@ -1,4 +1,4 @@
-"""Messages of ROS 1 as slipnav takes them."""
+"""ROS 1 messages as used by slipnav."""
 
 import genpy
 from geometry_msgs.msg import PoseStamped, TransformStamped
@@ -7,7 +7,7 @@ from sensor_msgs.msg import Imu, JointState, NavSatFix, NavSatStatus
 from tf2_msgs.msg import TFMessage
 
 BASE, IMU_FRAME, GPS_FRAME, TRUTH_FRAME = "base_link", "imu_link", "gps", "truth"
-TRUTH_BODY = "truth_body"  # what the truth is the pose of
+TRUTH_BODY = "truth_body"  # frame whose pose is the truth
 
 
 def time_of(stamp_ns):
@@ -53,7 +53,7 @@ def wheel_odometry(stamp_ns, forward_mps, yaw_rate_radps, child=BASE):
 
 
 def fix(stamp_ns, latitude_deg, longitude_deg, height_m, covariance_enu=None, status=NavSatStatus.STATUS_FIX):
-    """@param covariance_enu nine elements by row [m²]; None where it is not known"""
+    """@param covariance_enu nine elements by row [m²]; None if unknown"""
     message = stamped(NavSatFix(), stamp_ns, GPS_FRAME)
     message.status.status = status
     message.status.service = NavSatStatus.SERVICE_GPS
@@ -65,7 +65,7 @@ def fix(stamp_ns, latitude_deg, longitude_deg, height_m, covariance_enu=None, st
 
 
 def pose(stamp_ns, position, xyzw):
-    """@param xyzw attitude; zeros where it is not known"""
+    """@param xyzw attitude; zeros if unknown"""
     message = stamped(PoseStamped(), stamp_ns, TRUTH_FRAME)
     set_xyz(message.pose.position, position)
     set_quaternion(message.pose.orientation, xyzw)

@@ -13,11 +13,11 @@ STATIC = "tf_static"
 
 
 def require_time_in_common(streams):
-    """The IMU and whatever else there is must have been at work at the same time."""
+    """The IMU and everything else must overlap in time."""
     imu = streams[0]
     for other in streams[1:]:
         if other.topic != STATIC and (other.stamps[-1] < imu.stamps[0] or other.stamps[0] > imu.stamps[-1]):
-            raise Failure(f"{other.source} and {imu.source} have no time in common: {span(other)} and {span(imu)}; is "
+            raise Failure(f"{other.source} and {imu.source} do not overlap in time: {span(other)} and {span(imu)}; is "
                           "the unit of one wrong, or one in GPS time or local time? --imu-shift, --wheels-shift, "
                           "--truth-shift and --gps-shift add seconds to the stamps of one file")
 
@@ -27,7 +27,7 @@ def span(stream):
 
 
 def write(path, streams):
-    """All messages in the order of their stamps, which are the times of the recording, too."""
+    """All messages in the order of their stamps, which are also the recording times."""
     unfinished = path + ".part"
     merged = heapq.merge(*(stream.messages() for stream in streams), key=lambda item: item[0])
     try:
@@ -43,7 +43,7 @@ def write(path, streams):
 
 
 def latched(message, topic):
-    """What the header of a connection has to say for players to latch it; None for topics that are not."""
+    """Connection header that makes players latch the topic; None for topics that are not latched."""
     if topic != STATIC:
         return None
     return {"topic": "/" + topic, "type": message._type, "md5sum": message._md5sum,
@@ -51,7 +51,7 @@ def latched(message, topic):
 
 
 def summary(path, streams):
-    """What has been written, a line for each topic."""
+    """What has been written, a line per topic."""
     begin = min(stream.stamps[0] for stream in streams)
     end = max(stream.stamps[-1] for stream in streams)
     total = sum(len(stream.stamps) for stream in streams)

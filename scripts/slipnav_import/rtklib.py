@@ -13,7 +13,7 @@ STATUS = {1: NavSatStatus.STATUS_GBAS_FIX, 2: NavSatStatus.STATUS_GBAS_FIX, 3: N
 
 def fixes(path, folder, topic, shift_ns=0, as_truth=False):
     """@param folder of slipnav's programs
-    @param as_truth leave out rows that are far off, as an evaluation does with its truth"""
+    @param as_truth skip outlier rows, as an evaluation does with its truth"""
     lines, notes = programs.run(folder, "positions", path, *(["--truth"] if as_truth else []))
     rows = [line.split(",") for line in lines[1:]]
     if not rows:

@@ -1,8 +1,8 @@
-"""Messages of one topic to be: stamps in order, and what is odd about them."""
+"""The future messages of one topic: stamps in order, and their oddities."""
 
 from slipnav_import.table import counted, seconds_text
 
-# As ./run check has it.
+# As in ./run check.
 GAP_INTERVALS = 3.0
 LEAST_GAP_NS = 500_000_000
 
@@ -38,7 +38,7 @@ class Stream:
 
 
 def backward_notes(source, stamps, lines):
-    """What goes back in time, in the order of the file."""
+    """Stamps that go back in time, in the order of the file."""
     back = [i for i in range(1, len(stamps)) if stamps[i] < stamps[i - 1]]
     if not back:
         return []
@@ -49,7 +49,7 @@ def backward_notes(source, stamps, lines):
 
 
 def interval_notes(source, stamps):
-    """Gaps and equal stamps of what is in order."""
+    """Gaps and equal stamps after sorting."""
     intervals = [later - earlier for earlier, later in zip(stamps, stamps[1:])]
     equal = intervals.count(0)
     notes = [f"{source}: {counted(equal, 'stamp')} equal to the one before"] if equal else []

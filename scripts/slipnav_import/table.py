@@ -1,4 +1,4 @@
-"""Files of rows and columns: numbers in SI by key, stamps in nanoseconds, and what was left out."""
+"""Files of rows and columns: numbers in SI by key, stamps in nanoseconds, and what was skipped."""
 
 import csv
 import math
@@ -44,7 +44,7 @@ def fields_of(line, separator):
 
 
 def separator_of(line):
-    """The separator that stands in a line; None for white space."""
+    """The separator used in a line; None for white space."""
     return next((separator for separator in SEPARATORS if separator in line), None)
 
 
@@ -53,12 +53,12 @@ def is_number(field):
 
 
 def is_word(field):
-    """Neither a number, nor a date, nor the place of one that is absent."""
+    """Neither a number, nor a date, nor a placeholder for one."""
     return not is_number(field) and not date_ns(field) and field.lower() not in ABSENT
 
 
 def date_ns(field):
-    """UNIX time of a date of UTC; None for what is none."""
+    """UNIX time of a UTC date; None for anything else."""
     match = DATE.fullmatch(field)
     if not match:
         return None
@@ -70,13 +70,13 @@ def date_ns(field):
 
 
 def split_heading(heading):
-    """Name and unit of a column of a file; the unit stands in brackets or, if it is one, in parentheses."""
+    """Name and unit of a column of a file; the unit is in brackets or, if it is one, in parentheses."""
     match = re.fullmatch(r"(.*?)\s*\(([^()]*)\)", heading)
     return match.groups() if match and units.is_known(match.group(2)) else split_unit(heading)
 
 
 class Heading:
-    """What the columns of a file are called, and in which units."""
+    """Names and units of the columns of a file."""
 
     def __init__(self, path, names):
         self.path = path
@@ -84,10 +84,10 @@ class Heading:
         self.names = [split_heading(name) for name in names]
 
     def place(self, column, where):
-        """Index of a column, and the unit that counts."""
+        """Index of a column, and the unit that applies."""
         if column.number is not None:
             if not 1 <= column.number <= len(self.names):
-                raise Failure(f"{where}: {self.path} has {len(self.names)} columns, and no {column.name}")
+                raise Failure(f"{where}: {self.path} has {len(self.names)} columns, but no {column.name}")
             return column.number - 1, column.unit or self.known_unit(column.number - 1)
         places = [place for place, (name, _) in enumerate(self.names) if column.name in (name, self.whole[place])]
         if len(places) != 1:
@@ -108,14 +108,14 @@ class Heading:
             return f"{where}: {self.path} has {count} columns '{column.name}'; name one by its number, as #2"
         names = [name for name, _ in self.names]
         if not any(is_word(name) for name in names):
-            return (f"{where}: {self.path} has no line that names its columns, so no '{column.name}'; "
-                    f"name columns by their number, as {column.key}=#1")
+            return (f"{where}: {self.path} has no header line, so no '{column.name}'; "
+                    f"name columns by number, as {column.key}=#1")
         return (f"{where}: {self.path} has no column '{column.name}'; it has {', '.join(names)}"
                 f"{nearest(column.name, names)}")
 
 
 class Table:
-    """Stamps [ns], columns by key, and notes on rows that were left out.
+    """Stamps [ns], columns by key, and notes on skipped rows.
 
     @param columns of columns.parse()
     @param kinds by key: the kinds of units that a column may be of; a key that is not there takes those of None
@@ -130,7 +130,7 @@ class Table:
         rows = self._rows(columns, kinds, where)
         self._read(rows, columns)
         if not self.stamps:
-            raise Failure(f"{path}: has no row that can be used")
+            raise Failure(f"{path}: has no usable row")
         self.values = np.array(self._values, dtype=float).reshape(len(self.stamps), len(columns))
 
     def unit(self, place):
@@ -138,7 +138,7 @@ class Table:
         return self._units[place]
 
     def _rows(self, columns, kinds, where):
-        """(line number, fields) of all rows of data; finds out about header and separator first."""
+        """(line number, fields) of all data rows; detects header and separator first."""
         lines = open_lines(self.path)
         data = [(number, line) for number, line in lines if line.lstrip()[0] not in "#%"]
         if not data:
@@ -184,7 +184,7 @@ class Table:
                 fields.pop()  # a separator at the end
             if len(fields) != self._count:
                 if index + 1 == len(rows) and len(fields) < self._count and index > 0:
-                    self.notes.append(f"{self.path}:{number}: the last row is cut off: left out")
+                    self.notes.append(f"{self.path}:{number}: the last row is cut off: skipped")
                     continue
                 raise Failure(f"{self.path}:{number}: {len(fields)} fields instead of {self._count}")
             wanted = [fields[place] for place in self._places]
@@ -196,13 +196,13 @@ class Table:
             self._values.append([0.0 if i == time_at else self._number(field, i, number)
                                  for i, field in enumerate(wanted)])
         if absent:
-            self.notes.append(f"{self.path}: {counted(len(absent), 'row')} with NaN or empty fields left out, "
+            self.notes.append(f"{self.path}: {counted(len(absent), 'row')} with NaN or empty fields skipped, "
                               f"the first in line {absent[0]}")
 
     def _number(self, field, i, number):
         value = float(field) if NUMBER.fullmatch(field) else math.inf
         if not math.isfinite(value):
-            comma = " (a decimal comma? write points)" if re.fullmatch(r"-?\d+,\d+", field) else ""
+            comma = " (a decimal comma? use points)" if re.fullmatch(r"-?\d+,\d+", field) else ""
             raise Failure(f"{self.path}:{number}: '{field}' in column '{self._names[i]}' is not a number{comma}")
         factor = self._units[i][1]
         return value if factor is None else value * factor
@@ -230,7 +230,7 @@ def decimal_ns(field, seconds, where):
 def usable_stamp(stamp, where):
     """A stamp that a recording can hold."""
     if stamp <= 0:
-        raise Failure(f"{where}: the stamp is {seconds_text(stamp)} s, and a recording holds only times above zero: "
+        raise Failure(f"{where}: the stamp is {seconds_text(stamp)} s, but a recording holds only times above zero: "
                       "shift all by --shift-time 1000000000")
     if stamp >= END_OF_TIME_NS:
         raise Failure(f"{where}: the stamp is {seconds_text(stamp)} s, beyond what ROS counts: is the unit of t right?")

@@ -27,7 +27,7 @@ QUATERNION_TOLERANCE = 0.01  # of the length, which is 1
 
 
 def chosen(given, usual, where):
-    """The columns that were named, else those that are called as the keys."""
+    """The columns that were named, else those with the names of the keys."""
     return columns.parse(given if given else ",".join(f"{key}={key}" for key in usual), where)
 
 
@@ -95,11 +95,11 @@ def joints(path, parsed, shift_ns, where, counts_per_turn, radius_m):
 
 
 def wheel_factor(key, unit, counts_per_turn, radius_m, where):
-    """What is left of the way to radians, for columns whose unit does not say all."""
+    """The remaining factor to radians, for columns whose unit is not enough."""
     kind, factor = unit
     if kind in (units.WHEEL_SPEED, units.WHEEL_WAY):
         if not radius_m:
-            raise Failure(f"{where}: '{key}' is in meters, and a wheel turns by radians: give --wheel-radius M")
+            raise Failure(f"{where}: '{key}' is in meters, but a wheel turns in radians: give --wheel-radius M")
         return 1.0 / radius_m
     if factor is None:
         if not counts_per_turn:
@@ -113,7 +113,7 @@ def positions(path, given, shift_ns, where, fix_topic, pose_topic):
     parsed = chosen(given, FIX_KEYS, where)
     if any(column.key in POSE_KEYS[1:] for column in parsed):
         if pose_topic is None:
-            raise Failure(f"{where}: fixes of a receiver are lat, lon, h")
+            raise Failure(f"{where}: receiver fixes need lat, lon, h")
         return poses(path, parsed, shift_ns, where, pose_topic)
     return fixes(path, parsed, shift_ns, where, fix_topic)
 
@@ -149,7 +149,7 @@ def poses(path, parsed, shift_ns, where, topic):
 
 
 def quaternions(table, parsed, attitude):
-    """x, y, z, w by row; zeros, which stand for no attitude, where there is none."""
+    """x, y, z, w by row; zeros if there is no attitude."""
     if not attitude:
         return np.zeros((len(table.stamps), 4))
     if attitude is EULER:
@@ -160,7 +160,7 @@ def quaternions(table, parsed, attitude):
     xyzw = picked(table, parsed, QUATERNION)
     wrong = np.flatnonzero(np.abs(np.linalg.norm(xyzw, axis=1) - 1.0) > QUATERNION_TOLERANCE)
     if wrong.size:
-        raise Failure(f"{table.path}:{table.lines[wrong[0]]}: the quaternion has not the length 1: are "
+        raise Failure(f"{table.path}:{table.lines[wrong[0]]}: the quaternion does not have length 1: are "
                       "these its columns?")
     return xyzw
 

@@ -1,4 +1,4 @@
-"""Units of columns: what a number has to be multiplied with to be as messages have it."""
+"""Units of columns: factors that convert numbers to the units of messages."""
 
 import math
 import re
@@ -57,7 +57,7 @@ def is_known(unit):
 
 
 def kind_and_factor(unit, kinds, where):
-    """Which of the kinds a unit is of, and its factor; counts have no factor of their own."""
+    """Kind and factor of a unit; counts have no fixed factor."""
     unit = plain(unit)
     for kind in kinds:
         if kind == TIME and (unit in SECONDS or unit == DATE):

@@ -1,1 +1,1 @@
-"""What `--report` draws: figures of one run, and the page that holds them."""
+"""The plots of `--report`: figures of one run, and the page that contains them."""

@@ -1,4 +1,4 @@
-"""Figures of the filter itself: velocity, biases, and whether its innovations and errors are what it believes."""
+"""Figures of the filter itself: velocity, biases, and whether innovations and errors match its covariance."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -16,7 +16,7 @@ NIS_COMPONENTS = {
     "forward_speed": 1, "yaw_rate": 1, "lateral": 1, "vertical": 1, "zero_velocity": 3, "zero_rate": 3,
 }
 AXIS_NAMES = ("forward", "left", "up")
-NOT_MEASURED = dict.fromkeys(("zero_velocity", "zero_rate"), "no stop, or none that was used")
+NOT_MEASURED = dict.fromkeys(("zero_velocity", "zero_rate"), "no stop, or none was used")
 LEAST_SHOWN = 1e-4  # of a logarithmic axis
 
 
@@ -39,7 +39,7 @@ def velocity(run):
     axes.plot(*thinned(run.timeline["t"], run.timeline["speed"]), color=palette.ESTIMATE, lw=0.8, label="filter")
     shade_standstill(axes, run)
     axes.set_ylabel("forward speed [m/s]")
-    axes.set_xlabel("time [s]; grey: stops")
+    axes.set_xlabel("time [s]; gray: stops")
     axes.grid(alpha=0.3)
     legend_beside(axes)
     return figure
@@ -65,7 +65,7 @@ def biases(run):
         legend_beside(axes)
         if not has_values(run.filter[f"{sensor}_bias_x"]):
             say_why_empty(axes, "the filter made no update in this run")
-    gyro.set_xlabel("time [s]; grey: stops")
+    gyro.set_xlabel("time [s]; gray: stops")
     return figure
 
 
@@ -91,7 +91,7 @@ def consistency(run):
         measured = np.isfinite(run.filter["nis_" + name])
         draw_chi_square(axes, run.filter["t"][measured], freedom * run.filter["nis_" + name][measured], freedom,
                         "NIS " + name.replace("_", " "),
-                        NOT_MEASURED.get(name, "no such update was made; filter.updates says which are"))
+                        NOT_MEASURED.get(name, "no such update was made; see filter.updates"))
     draw_chi_square(grid[6], run.nees["t"], run.nees["nees"], 3, "NEES position", "no truth in this recording")
     grid[7].axis("off")
     grid[7].text(0.0, 0.5, "Shaded: 95 % of a chi-square distribution with\nthe degrees of freedom of the measurement.\n"

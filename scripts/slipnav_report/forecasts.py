@@ -1,4 +1,4 @@
-"""Figures of what was predicted, against what came: slip, and the growth of the position error."""
+"""Figures of predictions against outcomes: slip, and the growth of the position error."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -22,11 +22,11 @@ def slip_and_forecast(run):
         axes.plot(time, mean, color=palette.ESTIMATE, lw=1.5, label="_" if i else "forecast mean")
     shade_standstill(axes, run)
     if not len(table["t"]):
-        axes.set_title("no slip was forecast in this run: too few samples of slip before each forecast")
+        axes.set_title("no slip was forecast in this run: too few slip samples before each forecast")
     if not has_values(run.timeline["slip"]) and not len(table["t"]):
-        say_why_empty(axes, "no slip: the wheels never turned fast enough to tell it")
+        say_why_empty(axes, "no slip: the wheels never turned fast enough to compute it")
     axes.set_ylabel("slip ratio")
-    axes.set_xlabel("time [s]; grey: stops")
+    axes.set_xlabel("time [s]; gray: stops")
     axes.grid(alpha=0.3)
     legend_beside(axes)
     return figure
@@ -63,14 +63,14 @@ def predicted_and_realised(run):
     starts, first = np.unique(table["t"], return_index=True)
     countdown.plot(starts, table["time_to_stop_s"][first], ".", color=palette.ERROR, ms=3)
     countdown.set_ylabel("time to stop [s]")
-    countdown.set_xlabel("time [s]; grey: stops")
+    countdown.set_xlabel("time [s]; gray: stops")
     if not len(starts):
         error.set_title("no error was forecast in this run")
         say_why_empty(countdown, "no forecast, no countdown")
         if not has_values(run.errors()):
             say_why_empty(error, "no forecast and no truth")
     elif not np.isfinite(table["time_to_stop_s"]).any():
-        say_why_empty(countdown, "no stop was due: within the horizon no bound came to ε")
+        say_why_empty(countdown, "no stop was due: no bound reached ε within the horizon")
     for axes in (error, countdown):
         shade_standstill(axes, run)
         axes.grid(alpha=0.3)

@@ -1,4 +1,4 @@
-"""The figures as data for the plots that the page draws itself: what matplotlib has drawn, read off its axes.
+"""The figures as data for the plots that the page draws itself, read from matplotlib's axes.
 
 The plots are those of Flot, which comes with the system and goes into the page.
 """
@@ -13,7 +13,7 @@ from . import palette
 
 FOLDER = "/usr/share/javascript"
 LIBRARIES = ("jquery/jquery.min.js", "jquery-flot/jquery.flot.min.js")
-# Part of the file above where they are empty; older packages have them beside it.
+# Part of the file above where they are empty; older packages have them separately.
 PLUGINS = tuple(f"jquery-flot/jquery.flot.{name}.min.js" for name in ("fillbetween", "symbol"))
 PACKAGES = "libjs-jquery and libjs-jquery-flot"
 NOTICE = """/*! Flot, Copyright (c) 2007-2014 IOLA and Ole Laursen. Licensed under the MIT license:
@@ -31,13 +31,13 @@ OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR
 DECIMALS = 3  # along x: ms and mm
 DIGITS = 6  # along y
 
-# No browser loads anything for this page, whatever is in it.
+# Keeps browsers from loading anything for this page, whatever is in it.
 POLICY = ("<meta http-equiv=Content-Security-Policy content=\"default-src 'none'; img-src data:; "
           "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">")
 
 
 def library():
-    """The library's text, or None where it is not installed."""
+    """The library's text, or None if it is not installed."""
     needed = [os.path.join(FOLDER, name) for name in LIBRARIES]
     if not all(os.path.isfile(path) for path in needed):
         return None

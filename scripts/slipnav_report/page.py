@@ -1,4 +1,4 @@
-"""The report as one HTML file that needs nothing else."""
+"""The report as one self-contained HTML file."""
 
 import base64
 import html
@@ -16,10 +16,10 @@ FIGURES = (
     ("track", "Ground track", tracks.ground_track),
     ("errors", "Position error and its ±3σ bounds", tracks.position_errors),
     ("slip", "Slip and its forecast", forecasts.slip_and_forecast),
-    ("forecast", "Forecast and realised error, time to stop", forecasts.predicted_and_realised),
+    ("forecast", "Forecast and actual error, time to stop", forecasts.predicted_and_realised),
     ("velocity", "Velocity", filter_health.velocity),
     ("biases", "IMU biases", filter_health.biases),
-    ("consistency", "Consistency: normalised innovations and errors", filter_health.consistency),
+    ("consistency", "Consistency: normalized innovations and errors", filter_health.consistency),
 )
 
 # Heading of the table, key in metrics.json, decimals: the columns of the paper's Table I.
@@ -28,12 +28,12 @@ COLUMNS = (
     ("ENU error [%]", "enu_error_pct", 2), ("median error [%]", "median_error_pct", 2),
     ("horizontal median [m]", "horizontal_median_m", 2), ("std [m]", "horizontal_std_m", 2),
     ("max [m]", "horizontal_max_m", 2), ("RMS east [m]", "rms_east_m", 2), ("north [m]", "rms_north_m", 2),
-    ("up [m]", "rms_up_m", 2), ("wheels alone [%]", "wheel_only_error_pct", 2), ("without stops' updates [%]",
+    ("up [m]", "rms_up_m", 2), ("wheels only [%]", "wheel_only_error_pct", 2), ("without stops' updates [%]",
                                                                                  "no_zupt_error_pct", 2),
 )
 
 HINT = ("Drag over a figure to zoom: all that have a time axis follow. A double click shows the whole drive again. The "
-        "values at the cursor stand beside the curves; a click on a name hides its curve.")
+        "values at the cursor appear in the legends; a click on a name hides its curve.")
 
 STYLE = """
 body { font-family: sans-serif; color: #222222; background: #ffffff; max-width: 62rem; margin: 2rem auto; padding: 0 1rem }
@@ -58,13 +58,13 @@ def cell(value, decimals):
 
 
 def further_rows(metrics):
-    """{name: errors} of what stands beside the filter: the smoothed drive, and the tracks of others."""
+    """{name: errors} shown next to the filter: the smoothed drive, and other systems' tracks."""
     smoothed = {"smoothed": metrics["smoothed"]} if metrics.get("smoothed") else {}
     return {**smoothed, **metrics.get("compared", {})}
 
 
 def table_row(metrics):
-    """One row for the filter, and one for whatever stands beside it."""
+    """One row for the filter, and one for each track next to it."""
     further = further_rows(metrics)
     rows = {"filter": metrics, **further} if further else {"": metrics}
     heads = "".join(f"<th>{html.escape(title)}</th>" for title, _, _ in COLUMNS)
@@ -100,7 +100,7 @@ def all_metrics(metrics):
 
 
 def figure_block(name, title, png, zoomable=False):
-    """A zoomable figure has its picture only for who runs no scripts."""
+    """A zoomable figure has its picture only for browsers without scripts."""
     data = base64.b64encode(png).decode("ascii")
     picture = f'<img alt="{html.escape(title)}" src="data:image/png;base64,{data}">'
     if zoomable:

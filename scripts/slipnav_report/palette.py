@@ -1,4 +1,4 @@
-"""The colours of src/overlay/palette.h, so that plots and rviz look alike; a test compares them."""
+"""The colors of src/overlay/palette.h, so that plots and rviz look alike; a test compares them."""
 
 ESTIMATE = "#0072B2"
 TRUTH = "#E69F00"
@@ -9,7 +9,7 @@ TEXT = "#222222"
 SAFE = "#56B4E9"
 WARNING = "#F0E442"
 
-# In the place of those that are too dark on a dark page; in small letters, as matplotlib writes colours.
+# Instead of those that are too dark on a dark page; in lower case, as matplotlib writes colors.
 ON_DARK = {ESTIMATE.lower(): "#4fb3f0", STOP.lower(): "#2cc99b", ERROR.lower(): "#ff8a3c", TEXT: "#dddddd"}
 
 # Of three axes, where each figure says which is which.

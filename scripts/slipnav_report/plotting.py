@@ -1,4 +1,4 @@
-"""What the figures have in common. The artists that are drawn here carry what the page's own plots need to know."""
+"""What the figures have in common. The artists drawn here carry the data for the page's own plots."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Reads what a run has left in its output directory."""
+"""Reads the output directory of a run."""
 
 import csv
 import json
@@ -13,8 +13,8 @@ STANDSTILL_GAP_S = 0.5
 class RunData:
     """The files of one run as arrays by column; a table without rows is empty but has its columns.
 
-    `t` is counted from the first estimate. `smoothed` is None for a run without --smooth; `compared` has the tracks of
-    others by their names.
+    `t` is relative to the first estimate. `smoothed` is None for a run without --smooth; `compared` has the tracks of
+    other systems by name.
     """
 
     def __init__(self, directory):
@@ -63,7 +63,7 @@ def errors_of(line):
 
 
 def standstills(timeline):
-    """Rows (begin, end) of each standstill, end being the first that is none; those of the first and last epoch are no
+    """Rows (begin, end) of each standstill, end being the first row after it; those of the first and last epoch are no
     stops."""
     edges = np.flatnonzero(np.diff((timeline["stationary"] > 0.5).astype(int))) + 1
     if timeline["stationary"][0] > 0.5:
@@ -95,7 +95,7 @@ def thinned(*columns):
 
 
 def single_forecasts(table):
-    """Of forecasts that overlap, those that begin where the one before ends: a list of index arrays into the table."""
+    """Of overlapping forecasts, each that starts where the previous one ends: a list of index arrays into the table."""
     starts, first = np.unique(table["t"], return_index=True)
     chosen = []
     free_from = -np.inf

@@ -1,4 +1,4 @@
-"""The picture of one slip forecast with the samples that it was made from."""
+"""The plot of one slip forecast with the samples it was made from."""
 
 import csv
 
@@ -17,7 +17,7 @@ SIGMAS = 2.0  # of the band, as the paper draws it
 
 
 def read_samples(path):
-    """Times and slips of the rows that are numbers; the executable has refused all others but a header."""
+    """Times and slips of the numeric rows; the executable has rejected all others except a header."""
     rows = []
     with open(path, newline="", encoding="utf-8") as file:
         for row in csv.reader(file):

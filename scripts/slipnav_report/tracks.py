@@ -17,7 +17,7 @@ def ground_track(run):
     figure, axes = plt.subplots(figsize=(10, 7))
     line = run.timeline
     axes.plot(*thinned(run.wheel_track["east"], run.wheel_track["north"]), color=palette.DEAD_RECKONING, lw=1.2,
-              label="wheels and gyro alone")
+              label="wheels and gyro only")
     axes.plot(*thinned(run.truth["e"], run.truth["n"]), color=palette.TRUTH, lw=3, label="truth")
     time, east, north = thinned(line["t"], line["est_e"], line["est_n"])
     axes.plot(east, north, color=palette.ESTIMATE, lw=1.2, label="estimate")[0].times = time
@@ -57,7 +57,7 @@ def position_errors(run):
         legend_beside(axes)
     if np.isnan(errors).all():
         all_axes[0].set_title("no truth in this recording: bounds only")
-    all_axes[-1].set_xlabel("time [s]; grey: stops")
+    all_axes[-1].set_xlabel("time [s]; gray: stops")
     return figure
 
 

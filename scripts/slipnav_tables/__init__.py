@@ -1,1 +1,1 @@
-"""What `./run tables` does: simulated drives for the paper's tables and its figure, beside the paper's own numbers."""
+"""`./run tables`: simulated drives for the paper's tables and its figure, next to the paper's own numbers."""

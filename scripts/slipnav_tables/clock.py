@@ -1,4 +1,4 @@
-"""Autonomous stops against a clock that stops as often and as long, on the same ground with the same seeds."""
+"""Autonomous stops against periodic ones, as many and as long, on the same ground with the same seeds."""
 
 from typing import NamedTuple, Tuple
 
@@ -58,7 +58,7 @@ def clock_drive(drive, outcome):
 
 
 def pairs_of(outcomes, ground, options):
-    """(autonomous, by the clock) of each seed of which both came to their end."""
+    """(autonomous, periodic) for each seed of which both finished."""
     pairs = []
     for drive in autonomous_drives(ground, options):
         if isinstance(outcomes[drive], Failure):
@@ -113,7 +113,7 @@ class Clock:
                         + [number(ratio(both[0][key], both[1][key]), 2) for key in ("growth_rms_m", "worst_growth_m")]
                         + ["", number(ratio(both[0]["enu_error_pct"], both[1]["enu_error_pct"]), 2)])
         heads = ["ground", "stops by", "drives", "stops", "growth rms m", "worst m", "grown beyond ε", "ENU %"]
-        notes = [f"ε = {THRESHOLD_M:g} m. The clock of each drive stops as often and as long as the autonomous drive with "
-                 "that seed did, after equal times of driving. Growth: of the horizontal error in a stretch between two "
+        notes = [f"ε = {THRESHOLD_M:g} m. The periodic drive stops as often and as long as the autonomous drive with "
+                 "that seed, after equal times of driving. Growth: of the horizontal error in a stretch between two "
                  "stops, its largest; ENU: median over the drives."]
-        return Section(f"Against a clock with as many stops, {DISTANCE_M:.0f} m", [Table(heads, rows)], notes, data=data)
+        return Section(f"Against as many periodic stops, {DISTANCE_M:.0f} m", [Table(heads, rows)], notes, data=data)

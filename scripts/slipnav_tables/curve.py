@@ -1,4 +1,4 @@
-"""Error against stop rate, for stops by the clock and by forecast."""
+"""Error against stop rate, for periodic and autonomous stops."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -49,7 +49,7 @@ def point_data(outcomes, terrain, point, options):
 
 
 def error_of_periodic(points, rate_pct):
-    """Median error of periodic stops that stand for the same part of the time; None beyond the densest of them."""
+    """Median error of periodic stops with the same stop rate; None beyond the densest of them."""
     known = sorted((point["stop_rate_pct"], point["enu_error_pct"]["median"]) for point in points
                    if point["stop_rate_pct"] is not None and point["enu_error_pct"]["median"] is not None)
     if rate_pct is None or not known or not known[0][0] <= rate_pct <= known[-1][0]:
@@ -96,7 +96,7 @@ def draw_points(axes, points, colour, name):
 def draw(data):
     figure, all_axes = plt.subplots(1, len(TERRAINS), sharey=True, figsize=(11, 5))
     for axes, terrain in zip(all_axes, TERRAINS):
-        draw_points(axes, data[terrain][:len(PERIODIC_POINTS)], palette.DEAD_RECKONING, "by the clock, 3 s each")
+        draw_points(axes, data[terrain][:len(PERIODIC_POINTS)], palette.DEAD_RECKONING, "periodic, 3 s each")
         draw_points(axes, data[terrain][len(PERIODIC_POINTS):], palette.ESTIMATE, "autonomous")
         axes.set_xscale("symlog", linthresh=1.0)
         axes.set_xticks(RATE_TICKS_PCT)
@@ -123,10 +123,10 @@ class Curve:
     def section(outcomes, options):
         data = {terrain: terrain_data(outcomes, terrain, options) for terrain in TERRAINS}
         heads = ["ground", "stops by", "drives", "stops", "stop rate %", "lower by %", "ENU % median", "worst",
-                 "by the clock at that rate", "grown beyond ε"]
+                 "periodic at that rate", "grown beyond ε"]
         table = Table(heads, [table_row(terrain, point) for terrain in TERRAINS for point in data[terrain]])
         notes = [
-            f"`lower by`: the stop rate, against {paper.PERIODIC}. `by the clock at that rate`: median error of "
+            f"`lower by`: the stop rate, against {paper.PERIODIC}. `periodic at that rate`: median error of "
             "periodic stops at the same stop rate, linear between their points; autonomous stops pay when theirs is "
             "smaller.",
             "`grown beyond ε`: stretches of driving after a stop in which the horizontal error changed by more than ε, "

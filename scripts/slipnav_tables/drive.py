@@ -1,4 +1,4 @@
-"""One simulated drive: what to simulate, and what is read from the files that it leaves."""
+"""One simulated drive: what to simulate, and what is read from its files."""
 
 import csv
 import json
@@ -15,7 +15,7 @@ from .paper import AUTONOMOUS
 
 @dataclass(frozen=True)
 class Drive:
-    """Drives that are equal are driven once, whoever asks for them."""
+    """Equal drives are run once, whoever asks for them."""
 
     terrain: str
     distance_m: float
@@ -25,26 +25,30 @@ class Drive:
     settings: Tuple[str, ...] = ()  # BLOCK.KEY=VALUE
     probe_after_stop_s: Optional[float] = None  # read the forecast that is made so long after the first stop
     with_stretches: bool = False  # also where the stops are not autonomous
+    configurations: Tuple[str, ...] = ()  # YAML files
 
     def __str__(self):
-        settings = "".join(f" {setting}" for setting in self.settings)
+        settings = "".join(f" {setting}" for setting in
+                           (*map(os.path.basename, self.configurations), *self.settings))
         threshold = "" if self.threshold_m is None else f" ε {self.threshold_m:g} m"
         return f"{self.terrain} {self.distance_m:g} m {self.policy}{threshold}{settings} seed {self.seed}"
 
     def arguments(self, directory):
         """For the executable `simulate`."""
         listed = ["--terrain", self.terrain, "--distance", f"{self.distance_m:g}", "--seed", str(self.seed),
-                  "--policy", self.policy, "--out", directory]
+                  "--policy", self.policy]
         if self.threshold_m is not None:
             listed += ["--threshold", f"{self.threshold_m:g}"]
+        for configuration in self.configurations:
+            listed += ["--config", configuration]
         for setting in self.settings:
             listed += ["--set", setting]
-        return listed
+        return listed + ["--out", directory]
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """Driving between stops, from the begin of the route to the first, or from the last to the end of the drive."""
+    """Driving between stops, from the start of the route to the first, or from the last to the end of the drive."""
 
     duration_s: float
     growth_m: Optional[float]  # largest horizontal length of the change of the error since its begin
@@ -65,7 +69,7 @@ class Outcome:
 
 
 def read_outcome(drive, directory):
-    """Raises OSError, ValueError or KeyError when the files are not there or not what they should be."""
+    """Raises OSError, ValueError or KeyError if the files are missing or malformed."""
     with open(os.path.join(directory, "metrics.json"), encoding="utf-8") as file:
         metrics = json.load(file)
     stretches, time_to_stop_s = [], None
@@ -117,7 +121,7 @@ def growth(error):
 
 
 def probed_time_to_stop(timeline, forecasts, after_s):
-    """What the first forecast says that is made at least so long after the end of the first stop."""
+    """The first forecast made at least this long after the end of the first stop."""
     times = probed_times(timeline, forecasts, after_s)
     if not times:
         raise ValueError("the rover did not stop")

@@ -46,8 +46,8 @@ def real_interval(outcome):
 
 
 KINDS = (
-    ("forecast", "Time to the stop as forecast, 15 s after a stop", forecast_drives, forecast_interval),
-    ("real", "Real time between stops, median of each drive", real_drives, real_interval),
+    ("forecast", "Forecast time to the stop, 15 s after a stop", forecast_drives, forecast_interval),
+    ("real", "Actual time between stops, median of each drive", real_drives, real_interval),
 )
 TITLES = {name: title for name, title, _, _ in KINDS}
 
@@ -61,7 +61,7 @@ def kind_data(outcomes, options, drives_of, interval_of):
 
 
 def tests_of(data):
-    """ANOVA's and Tukey's p values; None where they cannot be told."""
+    """ANOVA's and Tukey's p values; None if unknown."""
     groups = {ground: data[ground]["intervals_s"] for ground in data}
     return {"anova_p": anova_p(list(groups.values())), "tukey_p": tukey_p(groups)}
 
@@ -120,7 +120,7 @@ def notes_of(kinds, options):
         "median; whiskers: least and most; points: the drives.",
         f"Forecast: {FORECAST_POLICY} over {FORECAST_DISTANCE_M:g} m, the forecast {paper.COLLECTION_S:g} s after the "
         f"first stop, looking {HORIZON_S:g} s ahead. Real: autonomous over {DRIVE_DISTANCE_M:g} m. `no stop seen`: "
-        "drives that say only how long there was none, and count with that.",
+        "drives with a lower bound only, which counts as the value.",
     ]
     for name, title, _, _ in KINDS:
         notes.append(f"{title}, order of the medians: {order_text(kinds[name])}; the paper: "

@@ -1,4 +1,4 @@
-"""Writes sections as Markdown, JSON and one HTML page that needs nothing else."""
+"""Writes sections as Markdown, JSON and one self-contained HTML page."""
 
 import html
 import json
@@ -36,8 +36,8 @@ def failures_of(outcomes):
 def failure_lines(outcomes):
     failures = failures_of(outcomes)
     if not failures:
-        return [f"All {len(outcomes)} drives came to their end."]
-    return [f"{len(failures)} of {len(outcomes)} drives failed and are in no figure:"] + [
+        return [f"All {len(outcomes)} drives finished."]
+    return [f"{len(failures)} of {len(outcomes)} drives failed and are not included:"] + [
         f"- {drive}: {failure}" for drive, failure in failures.items()]
 
 

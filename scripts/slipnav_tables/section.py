@@ -1,4 +1,4 @@
-"""What the parts of the output consist of."""
+"""Parts of the output."""
 
 from dataclasses import dataclass, field
 from typing import Dict, List, Optional
@@ -44,7 +44,7 @@ def succeeded(outcomes, drives):
 
 
 def figures_of(outcomes, drives, key):
-    """A figure of metrics.json over drives that came to their end."""
+    """A figure of metrics.json over drives that finished."""
     return [outcome.metrics[key] for outcome in succeeded(outcomes, drives)]
 
 

@@ -10,7 +10,7 @@ LEAST_P = 1e-4  # smaller ones are not told apart
 
 
 def median(values):
-    """None where there are none."""
+    """None if there are none."""
     known = [value for value in values if value is not None]
     return float(np.median(known)) if known else None
 
@@ -70,5 +70,5 @@ def studentized_range_sf(q, count, freedom):
 
 def p_text(value):
     if value is None:
-        return "cannot be told"
+        return "unknown"
     return "< 0.0001" if value < LEAST_P else f"{value:.4f}"

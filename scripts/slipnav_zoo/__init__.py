@@ -1,1 +1,1 @@
-"""What `./run zoo` and `./run foreign` do: drives on worlds and robots that nothing was tuned on, and their limits."""
+"""`./run zoo` and `./run foreign`: drives in worlds and on robots not used for tuning, and their limits."""

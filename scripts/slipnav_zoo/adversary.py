@@ -1,4 +1,4 @@
-"""Random configurations within their ranges in random worlds: what must never happen, whatever a user writes."""
+"""Random configurations within their ranges in random worlds: what must never happen, whatever a user configures."""
 
 import math
 import random

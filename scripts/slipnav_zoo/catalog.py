@@ -1,6 +1,6 @@
-"""The recorded drives of others: which configuration belongs to which, and what a textbook filter makes of them.
+"""The third-party recordings: their configurations, and the results of a textbook filter.
 
-A configuration holds what a user knows before the first drive: geometry, mounting, topics, the sensor's data sheet.
+A configuration contains what a user knows before the first drive: geometry, mounting, topics, the sensor's data sheet.
 """
 
 from dataclasses import dataclass

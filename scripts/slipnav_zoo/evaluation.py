@@ -1,4 +1,4 @@
-"""One recorded drive through `evaluate`, and what is read from the files that it leaves."""
+"""One recorded drive through `evaluate`, and what is read from its files."""
 
 import csv
 import json

@@ -1,4 +1,4 @@
-"""One simulated drive in a named world, and the figures that it leaves."""
+"""One simulated drive in a named world, and its figures."""
 
 import json
 import math
@@ -67,7 +67,7 @@ def drive_all(executable, drives, pool):
 
 
 def names(executable, kind):
-    """Worlds or grades that there are."""
+    """Available worlds or grades."""
     listed = subprocess.run([executable, "--" + kind, "list"], check=True, capture_output=True, text=True)
     return listed.stdout.split()
 

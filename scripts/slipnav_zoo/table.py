@@ -1,8 +1,8 @@
-"""A table that reads well as it is and is Markdown too, and what is wrong in it."""
+"""A table that is readable as text and as Markdown, and the limits broken in it."""
 
 
 def number(value, digits=2):
-    """So many decimals, fewer for large numbers; a dash where there is none."""
+    """This many decimals, fewer for large numbers; a dash where there is none."""
     if value is None or value != value:
         return "-"
     if abs(value) >= 1000:
@@ -23,7 +23,7 @@ def markdown(heads, rows):
 
 
 class Limits:
-    """Checks figures, and keeps what is broken."""
+    """Checks figures, and keeps broken limits."""
 
     def __init__(self):
         self.broken = []
@@ -42,4 +42,4 @@ class Limits:
     def text(self):
         if not self.broken:
             return "Every limit holds."
-        return "\n".join([f"{len(self.broken)} limits do not hold:"] + [f"- {line}" for line in self.broken])
+        return "\n".join([f"{len(self.broken)} limits are broken:"] + [f"- {line}" for line in self.broken])

@@ -1,4 +1,4 @@
-"""Every world with and without stops, several seeds each: errors beside wheels and gyro, and honesty."""
+"""Every world with and without stops, several seeds each: errors next to wheels and gyro, and honesty."""
 
 import statistics
 
@@ -36,7 +36,7 @@ def drives(worlds, grades, seeds, policies=(NO_STOPS, STOPS)):
 
 
 def is_beyond(figures):
-    """Worse than wheels and gyro by more than is allowed."""
+    """Worse than wheels and gyro by more than allowed."""
     alone = figures.metrics["wheel_only_error_pct"]
     return figures.final_pct is None or alone is None or figures.final_pct > LARGEST_RATIO * alone + SPARE_PCT
 
@@ -86,7 +86,7 @@ def check(group, outcomes, limits):
 
 
 def report(outcomes):
-    """Text, and the limits with what is broken."""
+    """Text, and the limits with those that are broken."""
     limits = Limits()
     rows = []
     for group, members in groups(outcomes).items():

@@ -59,7 +59,7 @@ ImuInterval withoutYawScale(const ImuInterval& interval, double yaw_scale) {
   return result;
 }
 
-/// What the way back needs of one epoch.
+/// What the backward pass needs of one epoch.
 struct AidedSmoother::ForwardEpoch {
   AidedState predicted;
   AidedCovariance P_predicted;
@@ -164,7 +164,7 @@ class AidedSmoother::ForwardPass {
     Eigen::LLT<Matrix3> cholesky;
   };
 
-  /// Of a measurement of three rows.
+  /// Of a three-row measurement.
   Innovation innovationOf(const Measurement& measurement) const {
     Innovation innovation;
     const Eigen::Matrix<double, 3, kNavStates> H = measurement.H.leftCols<kNavStates>();
@@ -206,7 +206,7 @@ class AidedSmoother::ForwardPass {
   AidedState state_;
   AidedCovariance P_;
   AidedCovariance transition_ = AidedCovariance::Identity();
-  Vector3 turned_rad_ = Vector3::Zero();  ///< by the gyros since the last wheel sample, bias and all
+  Vector3 turned_rad_ = Vector3::Zero();  ///< by the gyros since the last wheel sample, bias included
   double turned_s_ = 0.0;
   std::vector<ForwardEpoch> epochs_;
   std::size_t fixes_ = 0;

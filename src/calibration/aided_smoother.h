@@ -1,6 +1,6 @@
 #pragma once
-/// The drive as IMU and truth positions together say it, without wheels: a Kalman filter over the whole recording and
-/// back again (Rauch, Tung and Striebel 1965; Groves 3.4.3).
+/// The drive according to IMU and truth positions together, without wheels: a Kalman filter over the whole recording
+/// and back again (Rauch, Tung and Striebel 1965; Groves 3.4.3).
 ///
 /// Error states are the fifteen of navigation and the scale factor error of the gyro about body z, which is estimated
 /// here. Measurements are truth positions, and zero velocity and zero rate while wheels and IMU agree on standstill.
@@ -21,25 +21,25 @@ using AidedCovariance = Eigen::Matrix<double, kAidedStates, kAidedStates>;
 /// What the smoother estimates: a navigation state, and the scale factor of the gyro about z.
 struct AidedState {
   NavigationState nav;
-  double yaw_scale = 0.0;  ///< of the gyro about body z: it says (1 + yaw_scale) ω_z
+  double yaw_scale = 0.0;  ///< of the gyro about body z: it reports (1 + yaw_scale) ω_z
 };
 
-/// IMU interval free of the scale factor error; biases are still in it.
+/// IMU interval corrected for the scale factor error; biases are still included.
 ImuInterval withoutYawScale(const ImuInterval& interval, double yaw_scale);
 
-/// The state after a measurement, with all measurements before and after it.
+/// The state after a measurement, given all measurements before and after it.
 struct SmoothedEpoch {
   AidedState state;
   AidedCovariance P = AidedCovariance::Zero();  ///< layout of ErrorIndex, then kAidedYawScale
-  std::size_t next_interval = 0;                ///< the IMU interval that begins here
+  std::size_t next_interval = 0;                ///< the IMU interval that starts here
 };
 
 /// The states of a whole drive, at the stamps of its measurements, and how well truth agreed with them.
 struct SmoothedDrive {
   std::vector<SmoothedEpoch> epochs;
-  std::size_t fixes = 0;          ///< truth positions that were used
-  std::size_t refused_fixes = 0;  ///< contradicted what IMU and all others said
-  double fix_nis = 0.0;           ///< mean normalised innovation squared of the used ones per degree of freedom
+  std::size_t fixes = 0;          ///< truth positions used
+  std::size_t refused_fixes = 0;  ///< contradicted the IMU and all others
+  double fix_nis = 0.0;           ///< mean normalized innovation squared of the used ones per degree of freedom
 };
 
 /// Runs a drive forwards and backwards. Immutable.

@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 constexpr int kReweightings = 20;
 constexpr double kHuber = 2.5;         // standard deviations beyond which an error counts linearly
 constexpr double kMadToStd = 1.4826;   // of a normal distribution
-constexpr double kLeastPivot = 1e-12;  // of the normalised information, below which parameters are not told apart
-constexpr double kSigmas = 3.0;        // that are to be kept as promised
+constexpr double kLeastPivot = 1e-12;  // of the normalized information, below which parameters cannot be separated
+constexpr double kSigmas = 3.0;        // to be kept as promised
 constexpr double kConverged = 1e-10;
 
 VectorXd weightsOf(const VectorXd& residual, double std) {
@@ -35,8 +35,8 @@ double robustStd(const VectorXd& residual) {
   return kMadToStd * *middle;
 }
 
-/// On standard deviations from `batches` independent scores: n/(n − 1) on the variance for the fitted parameter, and
-/// what makes three standard deviations hold as much as they do of a normal distribution.
+/// Factor on standard deviations from `batches` independent scores: n/(n − 1) on the variance for the fitted parameter,
+/// and what makes three standard deviations cover as much as for a normal distribution.
 double smallSampleFactor(double batches) {
   const double freedom = std::max(batches, kLeastBatches) - 1.0;
   const double quantile = boost::math::quantile(
@@ -49,7 +49,7 @@ MatrixXd invert(const MatrixXd& information) {
   const VectorXd scale = information.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const Eigen::LDLT<MatrixXd> factors(scale.asDiagonal() * information * scale.asDiagonal());
   if (factors.info() != Eigen::Success || !(factors.vectorD().minCoeff() > kLeastPivot)) {
-    throw std::invalid_argument("the samples do not tell the parameters apart");
+    throw std::invalid_argument("the samples do not separate the parameters");
   }
   const auto n = information.rows();
   return scale.asDiagonal() * factors.solve(MatrixXd::Identity(n, n)) * scale.asDiagonal();

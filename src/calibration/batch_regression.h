@@ -1,8 +1,8 @@
 #pragma once
-/// Linear regression with errors that forget themselves only after a while, and with outliers.
+/// Linear regression with errors that decorrelate slowly, and with outliers.
 ///
 /// Huber's loss by iterated reweighting; the covariance comes from the sums of the scores over batches (batch means,
-/// cluster-robust sandwich: Liang and Zeger 1986), so that whatever correlation the errors have inside a batch counts.
+/// cluster-robust sandwich: Liang and Zeger 1986), which accounts for any correlation of the errors inside a batch.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -29,21 +29,21 @@ struct RegressionProblem {
   std::vector<std::size_t> batches_;
 };
 
-/// Parameters with the covariance that their batches give them.
+/// Parameters with the covariance from their batches.
 struct RegressionResult {
   Eigen::VectorXd estimate;
   Eigen::MatrixXd covariance;
-  /// How many batches of equal weight each parameter rests on: (Σh)²/Σh², h the information that a batch has on it.
+  /// How many batches of equal weight determine each parameter: (Σh)²/Σh², h the information of a batch on it.
   Eigen::VectorXd effective_batches;
   double residual_std = 0.0;  ///< robust
 };
 
-/// A parameter that rests on fewer batches has no variance that could be trusted.
+/// The variance of a parameter determined by fewer batches cannot be trusted.
 inline constexpr double kLeastBatches = 3.0;
 
 /// With n effective batches an error over the standard deviation from scores follows a Student distribution with n − 1
-/// degrees of freedom. The covariance is scaled so that three standard deviations hold 99.73 % of it.
-/// Throws std::invalid_argument when the rows do not determine the parameters.
+/// degrees of freedom. The covariance is scaled so that three standard deviations cover 99.73 % of it.
+/// Throws std::invalid_argument if the rows do not determine the parameters.
 RegressionResult regress(const RegressionProblem& problem);
 
 }  // namespace slipnav

@@ -13,10 +13,10 @@
 namespace slipnav {
 namespace {
 
-/// The second pass is linearised about what the first one found, and knows how noisy truth really is.
+/// The second pass is linearized about the result of the first, and knows the actual noise of the truth.
 constexpr int kPasses = 2;
 constexpr double kLeastDistance_m = 3.0;
-/// Truth that contradicts the IMU more often than this is not what it claims.
+/// Truth that contradicts the IMU more often than this is worse than it claims.
 constexpr double kRefusedShare = 0.02;
 
 std::string withUnit(double value, const char* unit) {
@@ -26,14 +26,14 @@ std::string withUnit(double value, const char* unit) {
   return text.str();
 }
 
-/// Mechanisation begins where truth does.
+/// Mechanization starts where truth does.
 void dropBefore(Nanoseconds start, std::vector<TimedInterval>& intervals) {
   intervals.erase(intervals.begin(), std::find_if(intervals.begin(), intervals.end(),
                                                   [start](const TimedInterval& i) { return i.start >= start; }));
 }
 
-/// The smoothed state at the start, biases as they were assumed: these are as well known before a pass as before the
-/// first.
+/// The smoothed state at the start, with the assumed biases: these are known equally well before every
+/// pass.
 AidedState startOfNextPass(const Planet& planet, const SmoothedDrive& smoothed, const AidedState& before) {
   AidedState start = before;
   const NavigationState& first = smoothed.epochs.front().state.nav;
@@ -63,7 +63,7 @@ SmoothedDrive smooth(const Planet& planet, const Config& config, const Calibrati
   result.fix_noise_factor = std::sqrt(variance_factor);
   if (static_cast<double>(smoothed.refused_fixes) > kRefusedShare * static_cast<double>(smoothed.fixes)) {
     result.warnings.push_back(std::to_string(smoothed.refused_fixes) +
-                              " truth positions contradict the IMU and were left out");
+                              "truth positions contradict the IMU and were rejected");
   }
   return smoothed;
 }
@@ -79,8 +79,8 @@ void describeDrive(const std::vector<MotionSample>& samples, CalibrationResult& 
   }
   if (result.distance_m < kLeastDistance_m) {
     throw std::invalid_argument("the rover drives " + withUnit(result.distance_m, "m") +
-                                " while truth, IMU and wheels are all there; calibration needs " +
-                                withUnit(kLeastDistance_m, "m") + " at the very least");
+                                " while truth, IMU and wheels are all available; calibration needs " +
+                                withUnit(kLeastDistance_m, "m") + " at least");
   }
   result.heading_std_rad = std::sqrt(heading_variance_s / moving_s);
 }
@@ -117,7 +117,7 @@ MountParams calibratedMount(const Config& config, const CalibrationResult& resul
   const MountParams& old = config.imu.mount;
   const Quaternion q_sensor_to_flu =
       q_b_to_n_fromEuler(degToRad(old.roll_deg), degToRad(old.pitch_deg), degToRad(old.yaw_deg));
-  // the same turn seen in forward-left-up: y and z point the other way, and so do turns about them
+  // the same rotation seen in forward-left-up: y and z point the other way, and so do rotations about them
   const Quaternion q_turn = q_b_to_n_fromEuler(0.0, result.mount_pitch_rad ? -result.mount_pitch_rad->value : 0.0,
                                                result.mount_yaw_rad ? -result.mount_yaw_rad->value : 0.0);
   const Vector3 angles_rad = eulerFrom_q_b_to_n(q_turn * q_sensor_to_flu);

@@ -15,14 +15,14 @@ struct Calibrated {
   double std = 0.0;
 };
 
-/// What can be said, and for each that cannot be, a line in `not_observable`.
+/// What could be estimated, and for each quantity that could not, a line in `not_observable`.
 struct CalibrationResult {
-  /// True over configured radius, of the wheels left and right of the middle; equal where sides cannot be told apart.
-  /// Where the recording has the robot's own odometry and no wheel rates: ground speed over the speed that it says.
+  /// True over configured radius, of the wheels left and right of the middle; equal if sides cannot be separated.
+  /// For a recording with the robot's own odometry and no wheel rates: ground speed over reported speed.
   std::optional<Calibrated> left_radius_ratio;
   std::optional<Calibrated> right_radius_ratio;
   bool has_wheel_rates = true;
-  bool sides_differ = false;               ///< the two were estimated each by itself
+  bool sides_differ = false;               ///< the two were estimated separately
   std::optional<Calibrated> scrub_factor;  ///< effective over configured track
   std::optional<double> track_m;           ///< configured, between the mean left and the mean right wheel
   /// Angles by which the axes of the configured mounting are turned in the vehicle: pitch positive nose up, yaw
@@ -33,14 +33,14 @@ struct CalibrationResult {
   std::optional<Calibrated> turn_centre_m;  ///< ahead of base_link: the point that does not move sideways in turns
   std::vector<std::string> not_observable;  ///< quantity and reason
   std::vector<std::string> warnings;
-  double distance_m = 0.0;        ///< driven in motion that was used
+  double distance_m = 0.0;        ///< driven in the motion used
   double turned_rad = 0.0;        ///< sum of all turns, left and right
   double heading_std_rad = 0.0;   ///< mean 1σ of the smoothed heading while moving
-  std::size_t fixes = 0;          ///< truth positions that were used
-  double fix_noise_factor = 1.0;  ///< on the 1σ that truth claims of itself, by what IMU and truth said of each other
+  std::size_t fixes = 0;          ///< truth positions used
+  double fix_noise_factor = 1.0;  ///< on the 1σ that the truth claims, from comparison with the IMU
 };
 
-/// Throws std::invalid_argument that says what is missing when nothing can be estimated.
+/// Throws std::invalid_argument that says what is missing if nothing can be estimated.
 CalibrationResult calibrate(const Config& config, CalibrationDrive drive);
 
 /// The configured wheels with calibrated radii.

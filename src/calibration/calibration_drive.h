@@ -1,5 +1,5 @@
 #pragma once
-/// A recorded drive as the calibration takes it.
+/// A recorded drive as input of the calibration.
 
 #include <vector>
 
@@ -15,21 +15,21 @@ namespace slipnav {
 struct CalibrationDrive {
   std::vector<ImuSample> imu;  ///< in the axes of the configured mounting
   std::vector<WheelMotion> wheels;
-  std::vector<PositionFix> truth;  ///< of the truth point; zero variance where nothing is known of it
+  std::vector<PositionFix> truth;  ///< of the truth point; zero variance if unknown
 };
 
-/// One IMU interval, biases and all.
+/// One IMU interval, biases included.
 struct TimedInterval {
   Nanoseconds start = 0;
   Nanoseconds end = 0;
   ImuInterval mean;
 };
 
-/// Puts each sensor's samples in the order of their stamps and leaves out repeated ones.
+/// Sorts each sensor's samples by stamp and drops repeated ones.
 void sortByStamp(CalibrationDrive& drive);
 
 /// Usable IMU samples as consecutive intervals, see ImuScreen. Throws std::invalid_argument for a gap that cannot be
-/// bridged: what the rover did in it is not known.
+/// bridged: the rover's motion in it is not known.
 std::vector<TimedInterval> imuIntervals(const std::vector<ImuSample>& samples, const ImuInputParams& params);
 
 }  // namespace slipnav

@@ -32,7 +32,7 @@ class Table {
   void add(const std::string& name, double configured, double estimated, double std, int decimals) {
     row(name, number(configured, decimals), number(estimated, decimals), number(std, decimals));
   }
-  /// Of something that has no configured value.
+  /// For a quantity without a configured value.
   void add(const std::string& name, const Calibrated& found, int decimals) {
     row(name, "-", number(found.value, decimals), number(found.std, decimals));
   }
@@ -92,7 +92,7 @@ void addMount(const Config& config, const CalibrationResult& result, Table& tabl
   }
 }
 
-/// The part of the configuration that is written, with the very names of its keys.
+/// The configuration block to write, with the exact names of its keys.
 struct WheelBlock {
   std::vector<WheelParams> wheels;
   void visit(ParameterVisitor& v) { v.list("wheels", wheels, "calibrated on firm ground; the wheels of a side alike"); }
@@ -125,7 +125,7 @@ std::string calibrationTable(const Config& config, const CalibrationResult& resu
     table.add("slip beyond firm ground [%]", {100.0 * result.slip->value, 100.0 * result.slip->std}, 2);
   }
   if (result.turn_centre_m) {
-    table.add("centre of turn ahead [m]", *result.turn_centre_m, 4);
+    table.add("center of turn ahead [m]", *result.turn_centre_m, 4);
   }
   std::ostringstream out = plainStream();
   out << table.text() << std::setprecision(0) << "from " << result.distance_m << " m with "

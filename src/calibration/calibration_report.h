@@ -1,5 +1,5 @@
 #pragma once
-/// A calibration in words for people, and as configuration.
+/// A calibration as text, and as configuration.
 
 #include <string>
 
@@ -10,8 +10,8 @@ namespace slipnav {
 /// Table of all quantities: configured, estimated, 1σ; then what could not be estimated and why, then warnings.
 std::string calibrationTable(const Config& config, const CalibrationResult& result);
 
-/// What to change in the configuration, with each 1σ as a comment: wheels, wheel.scrub_factor, imu.mount; what was not
-/// estimated is left out. A file for --config.
+/// What to change in the configuration, with each 1σ as a comment: wheels, wheel.scrub_factor, imu.mount; omits what
+/// was not estimated. A file for --config.
 std::string calibrationYaml(const Config& config, const CalibrationResult& result);
 
 }  // namespace slipnav

@@ -8,17 +8,17 @@
 namespace slipnav {
 namespace {
 
-/// Slower than this, slip is no ratio worth the name.
+/// Slower than this, slip as a ratio is meaningless.
 constexpr double kSlowest_mps = 0.05;
 
 /// One IMU interval of the smoothed drive.
 struct SmoothStep {
   InsStep step;
   Vector3 v_eb_b = Vector3::Zero();  ///< mean at base_link
-  std::size_t epoch = 0;             ///< the smoothed epoch it was mechanised from
+  std::size_t epoch = 0;             ///< the smoothed epoch it was mechanized from
 };
 
-/// Mechanises on from every smoothed epoch to the next.
+/// Mechanizes from every smoothed epoch to the next.
 std::vector<SmoothStep> mechanise(const Planet& planet, const Vector3& lever_b,
                                   const std::vector<TimedInterval>& intervals, const SmoothedDrive& smoothed) {
   const Strapdown strapdown(planet);

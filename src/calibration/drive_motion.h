@@ -1,5 +1,5 @@
 #pragma once
-/// The smoothed drive over the intervals of the wheels: what the wheels are compared with.
+/// The smoothed drive over the wheel intervals: what the wheels are compared with.
 
 #include <vector>
 
@@ -16,8 +16,8 @@ struct MotionSample {
   Vector3 omega_eb_b = Vector3::Zero();       ///< [rad/s]
   Vector3 tilt_variance_b = Vector3::Zero();  ///< of the smoothed attitude about the same axes [rad²]
   Matrix3 position_covariance_n = Matrix3::Zero();  ///< of the smoothed position [m²]
-  Vector3 forward_n = Vector3::Zero();              ///< where the rover points
-  double cross_slope = 0.0;                         ///< sine of the angle by which its right side hangs down
+  Vector3 forward_n = Vector3::Zero();              ///< direction the rover points
+  double cross_slope = 0.0;                         ///< sine of the angle by which its right side is lower
   WheelMotion wheels;
 };
 

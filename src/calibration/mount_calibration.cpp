@@ -8,17 +8,17 @@
 namespace slipnav {
 namespace {
 
-/// An angle that is less well known than this is not worth giving.
+/// An angle known less well than this is not reported.
 constexpr double kWorstStd_rad = 0.02;
-/// Less turning than this does not tell the centre of turn from the mounting.
+/// With less turning the center of turn cannot be separated from the mounting.
 constexpr double kLeastTurnForCentre_rad = 1.5;
 
-/// Ground has its slope over twice this distance; what is shorter is stones under single wheels.
+/// Ground has its slope over twice this distance; anything shorter is stones under single wheels.
 constexpr double kStones_m = 1.0;
 /// Standard deviation of that slope across the drive, as a sine, below which it does not show how a rover slips down
 /// it.
 constexpr double kLeastCrossSlope = 0.01;
-/// Side slip forgets itself after several metres: stretches that count as independent are longer by this factor, ...
+/// Side slip decorrelates only after several meters: stretches that count as independent are longer by this factor, ...
 constexpr double kSideSlipStretch = 3.0;
 /// ... unless the drive had fewer of them.
 constexpr double kLeastStretches = 10.0;
@@ -58,7 +58,7 @@ double meanVariance(const std::vector<MotionSample>& samples, int axis) {
   return sum / weights;
 }
 
-/// The attitude's own error hardly changes over the drive, so the residuals do not show it.
+/// The attitude error hardly changes over the drive, so the residuals do not show it.
 std::optional<Calibrated> angleOf(const RegressionResult& fit, double attitude_variance) {
   const double std = std::sqrt(fit.covariance(0, 0) + attitude_variance);
   if (fit.effective_batches(0) < kLeastBatches || std > kWorstStd_rad) {
@@ -111,7 +111,7 @@ void calibratePitch(double batch_m, const std::vector<MotionSample>& samples, Ca
 void calibrateMount(const Config& config, const std::vector<MotionSample>& samples, CalibrationResult& result) {
   calibrateYaw(config.calibration.batch_m, samples, result);
   calibratePitch(config.calibration.batch_m, samples, result);
-  result.not_observable.push_back("roll of the IMU: no course shows it; level the vehicle on a known surface for that");
+  result.not_observable.push_back("roll of the IMU: not visible in any course; level the vehicle on a known surface");
 }
 
 }  // namespace slipnav

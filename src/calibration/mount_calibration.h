@@ -1,5 +1,5 @@
 #pragma once
-/// How the IMU sits in the vehicle: where its smoothed axes point against the course over ground.
+/// Orientation of the IMU in the vehicle: its smoothed axes against the course over ground.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// Fills in mounting angles and turn centre. Reasons for what cannot be told go to `not_observable`.
+/// Fills in mounting angles and turn center. Reasons for what cannot be determined go to `not_observable`.
 void calibrateMount(const Config& config, const std::vector<MotionSample>& samples, CalibrationResult& result);
 
 }  // namespace slipnav

@@ -10,9 +10,9 @@
 namespace slipnav {
 namespace {
 
-/// Least part of all noise that goes with speed.
+/// Smallest share of the noise that is proportional to speed.
 constexpr double kLeastSpeedNoise = 0.01;
-/// Cells are shorter than turns and longer than what slip and steering do to each other.
+/// Cells are shorter than turns and longer than the interplay of slip and steering.
 constexpr double kCellsPerBatch = 4.0;
 
 /// Means over a cell of the drive: y = row · (half difference, gain) + error.
@@ -26,8 +26,8 @@ struct TurnRow {
 
 /// u_left − u_right = −d (u_left + u_right) + k B ω_z, with ω_z about down.
 ///
-/// Slip of one side makes noise of ω_z, and whoever steers takes it back by the wheels a metre or two later. Over cells
-/// of some metres ω_z is what the way demands and the wheels are what it took, so that neither noise nor steering
+/// Slip of one side makes noise of ω_z, and the driver corrects it by the wheels a meter or two later. Over cells
+/// of some meters ω_z is what the path demands and the wheels are what it took, so that neither noise nor steering
 /// biases the gain.
 std::vector<TurnRow> turnRows(const Sides& sides, double batch_m, const std::vector<MotionSample>& samples) {
   std::map<std::size_t, TurnRow> cells;
@@ -51,7 +51,7 @@ std::vector<TurnRow> turnRows(const Sides& sides, double batch_m, const std::vec
   return rows;
 }
 
-/// Variance of an error: one part goes with the wheels' speed (slip), one with turning (scrub that varies).
+/// Variance of an error: one part proportional to wheel speed (slip), one to turning (varying scrub).
 struct TurnNoise {
   double by_speed = 1.0;
   double by_turn = 0.0;
@@ -87,7 +87,7 @@ RegressionResult fitRows(const std::vector<TurnRow>& rows, const TurnNoise& nois
   return regress(problem);
 }
 
-/// The whole drive, twice: the second time weighted by what the first one says of the errors.
+/// The whole drive, twice: the second time weighted by the errors found in the first.
 SideFit fitTurns(const std::vector<TurnRow>& rows) {
   const RegressionResult fit = fitRows(rows, noiseOf(rows, fitRows(rows, {}).estimate));
   SideFit sides;
@@ -99,7 +99,7 @@ SideFit fitTurns(const std::vector<TurnRow>& rows) {
   return sides;
 }
 
-/// The same for a drive without turns, whose scrub factor has to be taken as configured.
+/// The same for a drive without turns, whose scrub factor must be taken as configured.
 SideFit fitStraight(const std::vector<TurnRow>& rows, double assumed_scrub) {
   RegressionProblem problem(1);
   for (const TurnRow& row : rows) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The wheels of the two sides against each other and against the rate of turn.
+/// The wheels of the two sides compared with each other and with the turn rate.
 
 #include <optional>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace slipnav {
 
-/// A wheel nearer to the middle belongs to no side.
+/// A wheel nearer to the middle belongs to neither side.
 inline constexpr double kLeastSideOffset_m = 1e-3;
 
-/// Mean speed and place of the wheels of each side, by configured radii.
+/// Mean speed and position of the wheels of each side, by configured radii.
 class Sides {
  public:
   /// @param wheels must outlive this
@@ -52,15 +52,15 @@ class Sides {
   double right_y_m_ = 0.0;  ///< of the right wheels, positive
 };
 
-/// How the two sides go together, slip and all.
+/// Relation of the two sides, slip included.
 struct SideFit {
   double half_difference = 0.0;  ///< (left − right) / (left + right) of the radius ratios
   double half_difference_std = 0.0;
   std::optional<Calibrated> turn_gain;  ///< scrub factor over mean radius ratio
 };
 
-/// Least squares of the difference of the sides on their sum and on the rate of turn over the whole drive.
-/// @param with_scrub the drive has turns; else the scrub factor is taken as `assumed_scrub`
+/// Least squares of the difference of the sides on their sum and on the turn rate over the whole drive.
+/// @param with_scrub the drive has turns; otherwise the scrub factor is taken as `assumed_scrub`
 SideFit fitSides(const Sides& sides, double batch_m, double assumed_scrub, bool with_scrub,
                  const std::vector<MotionSample>& samples);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Where the smoother of the calibration begins: levelled by the specific force, heading from the shape of the track.
+/// Starting point of the calibration's smoother: leveled by the specific force, heading from the shape of the track.
 
 #include "calibration/calibration_drive.h"
 #include "config/config.h"

@@ -11,11 +11,11 @@ namespace {
 
 /// Less turning than this says nothing about scrubbing.
 constexpr double kLeastTurnForScrub_rad = 1.5;
-/// Stretches into which the firm ground is divided; slip there forgets itself within a metre or two.
+/// Stretches into which the firm ground is divided; slip there decorrelates within a meter or two.
 constexpr double kFirmBatches = 8.0;
-/// Firm ground on which the wheels slip more than elsewhere, by so many standard deviations, is none.
+/// Firm ground on which the wheels slip more than elsewhere, by this many standard deviations, is not firm.
 constexpr double kFirmDoubt = 3.0;
-/// Ground with more slip than this is no ground to calibrate on.
+/// Ground with more slip than this is unsuitable for calibration.
 constexpr double kSoftSlip = 0.03;
 
 /// Speed of the vehicle's middle line by the wheels, with the right difference between the sides.
@@ -47,7 +47,7 @@ std::optional<Calibrated> speedRatio(const Sides& sides, const SideFit& side_fit
   return Calibrated{fit.estimate(0), std::sqrt(fit.covariance(0, 0))};
 }
 
-/// 1σ of the length of a part of the drive by the truth: its two ends, along the way.
+/// 1σ of the length of a part of the drive by the truth: its two ends, along the path.
 double lengthStd(const std::vector<MotionSample>& samples) {
   const auto variance = [](const MotionSample& s) { return s.forward_n.dot(s.position_covariance_n * s.forward_n); };
   return std::sqrt(variance(samples.front()) + variance(samples.back()));
@@ -80,7 +80,7 @@ double relativeStd(const Calibrated& quantity) { return quantity.std / std::abs(
 /// 1σ of a product or quotient relative to itself, as if its parts were independent.
 double relativeStd(const Calibrated& a, const Calibrated& b) { return std::hypot(relativeStd(a), relativeStd(b)); }
 
-/// Radii by the firm part, and the slip of the rest on these radii.
+/// Radii from the firm part, and the slip of the rest with these radii.
 class RadiusEstimate {
  public:
   RadiusEstimate(const CalibrationParams& params, const Sides& sides, const SideFit& side_fit,
@@ -127,8 +127,7 @@ void calibrateWheels(const Config& config, const std::vector<MotionSample>& samp
   result.has_wheel_rates = samples.front().wheels.count > 0;
   result.sides_differ = sides.present(samples.front().wheels);
   if (!result.sides_differ) {
-    result.not_observable.push_back(
-        "scrub factor, and radii side by side: there are no speeds of wheels to both sides");
+    result.not_observable.push_back("scrub factor, and radii per side: there are no wheel speeds on both sides");
   } else {
     const bool turns = result.turned_rad >= kLeastTurnForScrub_rad;
     side_fit = fitSides(sides, params.batch_m, config.wheel.scrub_factor, turns, samples);
@@ -150,7 +149,7 @@ void calibrateWheels(const Config& config, const std::vector<MotionSample>& samp
   result.right_radius_ratio = radii.ratio(-1.0);
   result.slip = radii.slip();
   if (result.slip && result.slip->value < -kFirmDoubt * result.slip->std) {
-    result.warnings.push_back("wheels slip more on the ground that was to be firm than later on: radii are too small");
+    result.warnings.push_back("the wheels slip more on the firm ground than later: the radii are too small");
   }
   if (result.slip && result.slip->value > kSoftSlip) {
     result.warnings.push_back("wheels slip by several percent: on such ground side slip turns the mounting angles");

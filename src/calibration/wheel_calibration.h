@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// Fills in what wheels tell. Reasons for what they do not tell go to `not_observable`.
+/// Fills in what the wheels determine. Reasons for the rest go to `not_observable`.
 /// @param samples of a drive that has moved
 void calibrateWheels(const Config& config, const std::vector<MotionSample>& samples, CalibrationResult& result);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the calibration assumes about the drive.
+/// Assumptions of the calibration about the drive.
 
 #include "slipnav/core/parameters/parameter_visitor.h"
 

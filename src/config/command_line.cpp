@@ -14,7 +14,7 @@ constexpr std::size_t kMeaningColumn = 32;
 
 std::string quote(const std::string& text) { return "'" + text + "'"; }
 
-/// Dashes make an option, but neither a lone dash nor a negative number is one.
+/// Dashes make an option, except for a lone dash or a negative number.
 bool looksLikeOption(const std::string& argument) {
   return argument.size() > 1 && argument[0] == '-' && !parseNumber(argument);
 }

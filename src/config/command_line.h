@@ -1,5 +1,5 @@
 #pragma once
-/// Declares and parses the command line of an executable. Prints nothing and ends nothing by itself.
+/// Declares and parses the command line of an executable. Does not print or exit by itself.
 
 #include <functional>
 #include <iosfwd>
@@ -18,7 +18,7 @@ class UsageError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// What a command line said, with defaults filled in. Asking for a name that was not declared throws std::logic_error.
+/// A parsed command line, with defaults filled in. Asking for a name that was not declared throws std::logic_error.
 class Arguments {
  public:
   /// The user asked for --help; nothing else has been checked.
@@ -27,7 +27,7 @@ class Arguments {
   bool given(const std::string& name) const;
   /// The value of an option or positional argument: the last one given, or its default.
   const std::string& text(const std::string& name) const;
-  /// The same as a number. Throws UsageError if it is none or out of range.
+  /// The same as a number. Throws UsageError if it is not one or out of range.
   double number(const std::string& name, Range range = {}) const;
   int integer(const std::string& name, Range range = {}) const;
   /// Every value of a repeated option, in order.
@@ -37,7 +37,7 @@ class Arguments {
   friend class CommandLine;
 
   struct Slot {
-    std::string shown;                ///< as error messages name it, for example "--seed"
+    std::string shown;                ///< name in error messages, for example "--seed"
     std::vector<std::string> values;  ///< the default until something is given
     bool given = false;
   };
@@ -55,7 +55,7 @@ class CommandLine {
 
   /// A switch without a value.
   CommandLine& flag(const std::string& name, const std::string& meaning);
-  /// An option with a value. `value_name` is what help calls the value.
+  /// An option with a value. `value_name` is its placeholder in the help text.
   CommandLine& option(const std::string& name, const std::string& value_name, const std::string& meaning,
                       const std::string& default_value = "");
   /// An option whose value is one of a few words.
@@ -65,7 +65,7 @@ class CommandLine {
   CommandLine& repeated(const std::string& name, const std::string& value_name, const std::string& meaning);
   /// A required argument without dashes; the order of the calls is that on the command line.
   CommandLine& positional(const std::string& name, const std::string& meaning);
-  /// Like positional(), but takes one or more; the last one to be declared.
+  /// Like positional(), but takes one or more; must be declared last.
   CommandLine& positionals(const std::string& name, const std::string& meaning);
 
   /// @param arguments without the program's own name; both `--name value` and `--name=value` are understood, and

@@ -8,14 +8,32 @@
 namespace slipnav {
 namespace {
 
-/// Merges a document into what has been read so far. It is first read alone, so that errors name where they are.
+/// Merges a document into what has been read so far. It is first read separately, so that errors name its location.
 void mergeChecked(const YAML::Node& document, const std::string& source, YAML::Node& merged) {
   Config scratch;
   readParameters(document, scratch, source);
   merged.reset(mergeYaml(merged, document));
 }
 
-/// An override has a name, but no lines that an error could point at.
+/// The paper's forecast and the sliding one each have settings that belong to one only or would break the other.
+void requireOneMethod(const ForecastParams& forecast, const StopParams& stop) {
+  const bool paper = forecast.schedule == "paper";
+  if (!paper && forecast.sigma_points.form != "unscented") {
+    throw std::invalid_argument("'forecast.sigma_points.form: " + forecast.sigma_points.form +
+                                "' needs 'forecast.schedule: paper'");
+  }
+  if (paper && forecast.bound != "absolute") {
+    throw std::invalid_argument("'forecast.schedule: paper' contradicts 'forecast.bound: " + forecast.bound +
+                                "', it needs 'absolute'; config/paper.yaml has all that belongs to it");
+  }
+  if (paper && stop.forecast_timeout_s <= forecast.window_s) {
+    throw std::invalid_argument(
+        "'forecast.schedule: paper' contradicts 'stop.forecast_timeout_s', which must be above 'forecast.window_s': "
+        "before the first forecast stops would become periodic");
+  }
+}
+
+/// An override has a name, but no lines that an error could refer to.
 void mergeOverride(const Override& item, YAML::Node& merged) {
   try {
     mergeChecked(toYamlNode(item), "", merged);
@@ -33,24 +51,24 @@ void ImuConfig::visit(ParameterVisitor& v) {
 }
 
 void Config::visit(ParameterVisitor& v) {
-  v.choice("planet", planet, {"earth", "mars", "moon"}, "whose ellipsoid, gravity and rotation hold");
+  v.choice("planet", planet, {"earth", "mars", "moon"}, "whose ellipsoid, gravity and rotation apply");
   v.group("topics", topics, "what the robot or the recording calls each topic");
   v.group("frames", frames, "coordinate frames");
   v.group("imu", imu, "the inertial sensor");
   v.group("gps_mount", gps_mount, "where the antenna of gps/fix is");
-  v.group("truth_mount", truth_mount, "where the point is whose position the truth topics give");
-  v.group("truth", truth, "how truth is laid over the estimate");
+  v.group("truth_mount", truth_mount, "where the point tracked by the truth topics is");
+  v.group("truth", truth, "how truth is aligned with the estimate");
   v.list("wheels", wheels, "driven wheels, in the order of slip messages");
-  v.group("wheel", wheel, "what the wheels' speeds are worth");
-  v.group("wheel_monitor", wheel_monitor, "when a wheel is taken for broken");
+  v.group("wheel", wheel, "wheel speeds: source, timing and noise");
+  v.group("wheel_monitor", wheel_monitor, "when a wheel is considered faulty");
   v.group("vehicle", vehicle, "how vehicle and ground behave between measurements");
-  v.group("nonholonomic", nonholonomic, "what it is worth that the rover moves along its wheels");
-  v.group("zero_motion", zero_motion, "what standstill is worth");
+  v.group("nonholonomic", nonholonomic, "non-holonomic constraints: noise and averaging");
+  v.group("zero_motion", zero_motion, "zero-velocity and zero-rate updates: noise");
   v.group("stationary", stationary, "when the rover counts as standing still");
   v.group("gnss", gnss, "what satellite positions are used for");
   v.group("filter", filter, "error-state Kalman filter");
   v.group("initialization", initialization, "how the start is found");
-  v.group("checkpoint", checkpoint, "going on after a crash");
+  v.group("checkpoint", checkpoint, "resuming after a crash");
   v.group("forecast", forecast, "how slip and position error are forecast");
   v.group("overlay", overlay, "what rviz shows of a drive");
   v.group("stop", stop, "when the rover stops for a zero update, and how");
@@ -88,6 +106,7 @@ void Config::requireConsistent() const {
   if (forecast.horizon_s < forecast.step_s) {
     throw std::invalid_argument("'forecast.horizon_s' must not be below 'forecast.step_s'");
   }
+  requireOneMethod(forecast, stop);
 }
 
 Config Config::load(const std::vector<std::string>& yaml_files, const std::vector<Override>& overrides) {

@@ -30,7 +30,7 @@ struct ImuConfig {
   void visit(ParameterVisitor& v);
 };
 
-/// All parameters, block by block; meaning, unit and range of each stand in the visit() of its block.
+/// All parameters, block by block; meaning, unit and range of each are in the visit() of its block.
 struct Config {
   std::string planet = "earth";
   TopicNames topics;
@@ -58,15 +58,15 @@ struct Config {
 
   void visit(ParameterVisitor& v);
 
-  /// The part that mechanisation, filter and initialisation are made from.
+  /// The parameters of mechanization, filter and initialization.
   NavigationSetup navigation() const;
   WheelGeometry wheelGeometry() const { return {wheels, wheel.scrub_factor}; }
 
-  /// Throws std::invalid_argument of one line when values that are each in their range contradict each other.
+  /// Throws std::invalid_argument with one line if values that are each in range contradict each other.
   void requireConsistent() const;
 
   /// Reads YAML files over the defaults: blocks are merged, of a value or list given twice the later one wins; then the
-  /// overrides in their order. Throws std::invalid_argument of one line that names the file or override, the key and
+  /// overrides in order. Throws std::invalid_argument with one line that names the file or override, the key and
   /// what is wrong.
   static Config load(const std::vector<std::string>& yaml_files, const std::vector<Override>& overrides = {});
 };

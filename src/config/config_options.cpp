@@ -5,10 +5,10 @@
 namespace slipnav {
 
 void declareConfigOptions(CommandLine& command_line) {
-  command_line.repeated("config", "YAML", "configuration file; of several the later ones win")
-      .repeated("legacy-start", "YAML", "init_params.yaml of the paper's own software: start, heading and biases")
+  command_line.repeated("config", "YAML", "configuration file; later ones win")
+      .repeated("legacy-start", "YAML", "init_params.yaml of the paper's software: start, heading and biases")
       .repeated("topic", "NAME:=OTHER", "what the robot or the recording calls a topic")
-      .repeated("set", "BLOCK.KEY=VALUE", "one setting, over those of the files");
+      .repeated("set", "BLOCK.KEY=VALUE", "one setting, overriding the files");
 }
 
 Config configFromOptions(const Arguments& arguments, std::vector<std::string> first) {

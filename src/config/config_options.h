@@ -9,7 +9,7 @@ namespace slipnav {
 /// Declares --config, --topic and --set.
 void declareConfigOptions(CommandLine& command_line);
 
-/// The configuration that those options describe. Throws std::invalid_argument, see Config::load().
+/// The configuration selected by those options. Throws std::invalid_argument, see Config::load().
 /// @param first files that come before those of the options
 Config configFromOptions(const Arguments& arguments, std::vector<std::string> first = {});
 

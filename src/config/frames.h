@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// Block `frames`: what TF and the headers of messages call each frame.
+/// Block `frames`: the name of each frame in TF and message headers.
 struct FrameNames {
   std::string map = "map";
   std::string odom = "odom";

@@ -16,7 +16,7 @@ namespace {
 
 using Triple = std::array<double, 3>;
 
-/// The first block of this name, at the top or deeper. Blocks of parameters have no loops.
+/// The first block of this name, at the top or deeper. Parameter blocks have no cycles.
 YAML::Node find(const YAML::Node& node, const std::string& name) {
   if (!node.IsMap()) {
     return YAML::Node(YAML::NodeType::Undefined);
@@ -41,7 +41,7 @@ double component(const YAML::Node& block, const std::string& axis, const std::st
   return value;
 }
 
-/// Under the first of the names that the file has.
+/// From the first of the names that the file contains.
 std::optional<Triple> tripleOf(const YAML::Node& document, const std::string& file,
                                std::initializer_list<const char*> names) {
   for (const char* name : names) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The start that the paper's own software writes: `init_params.yaml`.
+/// The start written by the paper's software: `init_params.yaml`.
 ///
 /// Its keys, each with x, y and z, at the top or inside other blocks: `init_llh`, latitude, longitude [rad] and height
 /// [m]; `init_att`, roll, pitch and yaw [rad] of forward-right-down in north-east-down; `init_bias_a` [m/s²] and
@@ -12,9 +12,9 @@
 
 namespace slipnav {
 
-/// The settings of `initialization` that the file amounts to: its place, heading and biases. Roll and pitch are left to
-/// the levelling, which sees the rover as it stands now. Throws std::invalid_argument of one line that names file and
-/// key.
+/// The `initialization` settings equivalent to the file: place, heading and biases. Roll and pitch are left to
+/// leveling, which measures the rover's current attitude. Throws std::invalid_argument with one line that names file
+/// and key.
 std::vector<Override> legacyStart(const std::string& file);
 
 }  // namespace slipnav

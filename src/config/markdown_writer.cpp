@@ -91,7 +91,7 @@ void MarkdownWriter::leaveGroup() { closeSection(); }
 std::optional<std::size_t> MarkdownWriter::enterList(const char* name, std::size_t current_size, const char* meaning) {
   openSection(std::string(name) + "[]", meaning);
   if (current_size == 0) {
-    return 1;  // an item to show the keys of
+    return 1;  // one item to show its keys
   }
   return std::nullopt;
 }

@@ -14,7 +14,7 @@ namespace slipnav {
 /// The visitor behind toMarkdown().
 class MarkdownWriter : public ParameterVisitor {
  public:
-  /// @param tunable keys that are marked: they may be changed while the nodelets run
+  /// @param tunable keys marked as changeable while the nodelets run
   explicit MarkdownWriter(std::set<std::string> tunable = {});
 
   void number(const char* name, double& value, Range range, const char* meaning) override;
@@ -52,7 +52,7 @@ class MarkdownWriter : public ParameterVisitor {
   std::set<std::string> tunable_;
   ParameterPath path_;
   std::vector<Section> sections_;
-  std::vector<std::size_t> open_;  ///< indices of the sections that the visitor stands in
+  std::vector<std::size_t> open_;  ///< indices of the enclosing sections
   bool rows_wanted_ = true;        ///< off after the first item of a list: the others have the same keys
 };
 

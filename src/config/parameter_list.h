@@ -1,5 +1,5 @@
 #pragma once
-/// The single values of a parameter struct as a list, with all that its visit() says about them.
+/// The single values of a parameter struct as a list, with everything its visit() says about them.
 
 #include <string>
 #include <variant>
@@ -10,7 +10,7 @@
 
 namespace slipnav {
 
-/// What a field with a single value may hold.
+/// Possible values of a field with a single value.
 using ParameterValue = std::variant<bool, int, double, std::string>;
 
 /// One field.
@@ -22,7 +22,7 @@ struct ParameterInfo {
   std::string meaning;
 };
 
-/// The visitor behind listParameters(). Lists of numbers, of words and of blocks are left out.
+/// The visitor behind listParameters(). Lists of numbers, of words and of blocks are skipped.
 class ParameterLister : public ParameterVisitor {
  public:
   void number(const char* name, double& value, Range range, const char* meaning) override;
@@ -50,7 +50,7 @@ class ParameterLister : public ParameterVisitor {
   void add(const char* name, ParameterValue value, Range range, std::vector<std::string> options, const char* meaning);
 
   ParameterPath path_;
-  int lists_ = 0;  ///< that the visitor stands in
+  int lists_ = 0;  ///< nesting depth in lists
   std::vector<ParameterInfo> parameters_;
 };
 
@@ -62,7 +62,7 @@ std::vector<ParameterInfo> listParameters(Parameters parameters) {
   return lister.parameters();
 }
 
-/// As it stands in YAML.
+/// As written in YAML.
 std::string toText(const ParameterValue& value);
 
 }  // namespace slipnav

@@ -1,5 +1,5 @@
 #pragma once
-/// Which of the names at the boundary are those of sensors.
+/// Which of the topics are those of sensors.
 
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace slipnav {
 
-/// What a recording has to offer: sensors and truth. Commands are none.
+/// What a recording can provide: sensors and truth, but not commands.
 std::vector<std::string> sensorTopics(const TopicNames& topics);
 
 }  // namespace slipnav

@@ -1,5 +1,5 @@
 #pragma once
-/// The names at the boundary, and what a robot or a recording calls them.
+/// The topic names, and what a robot or a recording calls them.
 
 #include <string>
 

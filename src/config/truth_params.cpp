@@ -4,10 +4,10 @@ namespace slipnav {
 
 void TruthParams::visit(ParameterVisitor& v) {
   v.choice("align", align, {"auto", "none", "start_yaw", "start_pose", "heading"},
-           "none: truth lives in the frame of the estimate; start_yaw, start_pose: its first pose is that of the "
-           "estimate, by heading or by full attitude; heading: turned to fit the first metres; auto: none for fixes, "
+           "none: truth is in the frame of the estimate; start_yaw, start_pose: its first pose is put on that of the "
+           "estimate, by heading or by full attitude; heading: rotated to fit the first meters; auto: none for fixes, "
            "start_yaw for poses");
-  v.number("heading_distance_m", heading_distance_m, {1.0, 1e4}, "how many metres align: heading fits [m]");
+  v.number("heading_distance_m", heading_distance_m, {1.0, 1e4}, "distance over which align: heading fits [m]");
 }
 
 TruthAlignment TruthParams::alignment(bool geodetic) const {

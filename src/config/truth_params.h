@@ -1,5 +1,5 @@
 #pragma once
-/// How a recorded truth is laid over the estimate.
+/// How a recorded truth is aligned with the estimate.
 
 #include <optional>
 #include <string>
@@ -8,16 +8,16 @@
 
 namespace slipnav {
 
-/// How the start pose of truth becomes the start pose of the estimate.
+/// How the start pose of the truth is matched to that of the estimate.
 enum class StartAlignment {
-  kYaw,      ///< position and heading: for a levelled truth frame (z up), such as odometry or a levelled arena
-  kFullPose  ///< position and full attitude: for truth in the robot's own start frame, which leans as the robot did
+  kYaw,      ///< position and heading: for a level truth frame (z up), such as odometry or a leveled arena
+  kFullPose  ///< position and full attitude: for truth in the robot's own start frame, tilted as the robot was
 };
 
-/// How truth is laid over the estimate.
+/// How truth is aligned with the estimate.
 struct TruthAlignment {
-  std::optional<StartAlignment> at_start;    ///< for truth in a frame of its own
-  std::optional<double> heading_distance_m;  ///< turn truth to fit the first metres, for fixes too poor to tell more
+  std::optional<StartAlignment> at_start;    ///< for truth in its own frame
+  std::optional<double> heading_distance_m;  ///< rotate truth to fit the first meters, for fixes too poor for more
 };
 
 /// Block `truth`.
@@ -26,7 +26,7 @@ struct TruthParams {
   double heading_distance_m = 30.0;
   void visit(ParameterVisitor& v);
 
-  /// @param geodetic the truth is known by latitude and longitude; otherwise it lives in a frame of its own
+  /// @param geodetic the truth has latitude and longitude; otherwise it is in its own frame
   TruthAlignment alignment(bool geodetic) const;
 };
 

@@ -10,8 +10,8 @@
 namespace slipnav {
 namespace {
 
-/// Keys, or whole blocks. What is left out needs a new start: the state would not fit it any more, as with another
-/// geometry of the wheels, or the change would have no effect, as with the prior of something that has been learned.
+/// Keys, or whole blocks. Anything else needs a new start: the state would no longer fit, as with another
+/// wheel geometry, or the change would have no effect, as with the prior of something already learned.
 const std::map<std::string, std::vector<std::string>>& offers() {
   static const std::map<std::string, std::vector<std::string>> kOffers = {
       {"Filter",

@@ -11,14 +11,14 @@ namespace slipnav {
 /// parsed.
 YAML::Node loadYamlFile(const std::string& file);
 
-/// Parses YAML text. `source` is what error messages call it. Throws std::invalid_argument.
+/// Parses YAML text. `source` is its name in error messages. Throws std::invalid_argument.
 YAML::Node parseYaml(const std::string& text, const std::string& source);
 
-/// Deep merge: where both have a map at a key, the maps are merged; anything else (a list, too) of `overlay` replaces
-/// that of `base`. Neither argument is changed.
+/// Deep merge: where both have a map at a key, the maps are merged; anything else (including a list) of `overlay`
+/// replaces that of `base`. Neither argument is changed.
 YAML::Node mergeYaml(const YAML::Node& base, const YAML::Node& overlay);
 
-/// "source:line: " for the start of an error message, or what of it is known.
+/// "source:line: " for the start of an error message, as far as known.
 std::string yamlLocation(const std::string& source, const YAML::Mark& mark);
 
 }  // namespace slipnav

@@ -16,7 +16,7 @@ std::string quote(const std::string& key) { return "'" + key + "'"; }
 /// Name after the last dot.
 std::string leafOf(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-/// What stands there, in words for an error message.
+/// The node in words, for an error message.
 std::string describeNode(const YAML::Node& node) {
   switch (node.Type()) {
     case YAML::NodeType::Scalar:
@@ -30,7 +30,7 @@ std::string describeNode(const YAML::Node& node) {
   }
 }
 
-/// What a document does not have. yaml-cpp takes several pieces of memory for such a node, and most keys are absent.
+/// An absent node. yaml-cpp allocates several pieces of memory for such a node, and most keys are absent.
 const YAML::Node& absentNode() {
   static const YAML::Node absent(YAML::NodeType::Undefined);
   return absent;
@@ -196,7 +196,7 @@ void YamlReader::closeBlock() {
 }
 
 std::string YamlReader::nearestKey(const std::string& unknown) const {
-  // A right name in the wrong block is likelier than any misspelling.
+  // A right name in the wrong block is more likely than any misspelling.
   const auto displaced = std::find_if(known_keys_.begin(), known_keys_.end(),
                                       [&](const std::string& key) { return leafOf(key) == leafOf(unknown); });
   return displaced != known_keys_.end() ? *displaced : nearestName(unknown, known_keys_);

@@ -1,7 +1,7 @@
 #pragma once
-/// Fills any parameter struct from YAML and refuses what does not belong there.
+/// Fills any parameter struct from YAML and rejects unknown keys.
 ///
-/// Every error is a std::invalid_argument of one line: source and line (where known), dotted key, what is wrong.
+/// Every error is a std::invalid_argument with one line: source and line (if known), dotted key, what is wrong.
 
 #include <yaml-cpp/yaml.h>
 
@@ -14,7 +14,7 @@
 
 namespace slipnav {
 
-/// The visitor behind readParameters(). Keys that are absent leave their field as it is.
+/// The visitor behind readParameters(). Absent keys leave their field unchanged.
 class YamlReader : public ParameterVisitor {
  public:
   YamlReader(const YAML::Node& root, std::string source);
@@ -29,7 +29,7 @@ class YamlReader : public ParameterVisitor {
   void words(const char* name, std::vector<std::string>& value, std::initializer_list<const char*> options,
              const char* meaning) override;
 
-  /// Call once, after the visit: throws if the document holds a key that no field has asked for, and names the nearest.
+  /// Call once, after the visit: throws if the document has a key that no field has asked for, and names the nearest.
   void refuseUnknownKeys();
 
  protected:
@@ -42,7 +42,7 @@ class YamlReader : public ParameterVisitor {
 
  private:
   struct Block {
-    YAML::Node node;               ///< map, or list of maps; undefined when the document has no such block
+    YAML::Node node;               ///< map, or list of maps; undefined if the document has no such block
     std::set<std::string> unread;  ///< keys of the map that no field has asked for
   };
   struct UnknownKey {
@@ -57,7 +57,7 @@ class YamlReader : public ParameterVisitor {
   double readNumber(const YAML::Node& node, const std::string& key, const Range& range) const;
   std::string readWord(const YAML::Node& node, const std::string& key, const std::vector<std::string>& options) const;
   void requireList(const YAML::Node& node, const std::string& key) const;
-  /// Throws when one is given twice.
+  /// Throws if one is given twice.
   std::set<std::string> keysOf(const YAML::Node& map) const;
   [[noreturn]] void fail(const YAML::Mark& mark, const std::string& message) const;
 
@@ -68,7 +68,7 @@ class YamlReader : public ParameterVisitor {
   std::vector<UnknownKey> unknown_keys_;
 };
 
-/// Fills a struct with visit() from a YAML map. `source` is what error messages call the document ("" to leave it out).
+/// Fills a struct with visit() from a YAML map. `source` is the document's name in error messages ("" to omit it).
 template <class Parameters>
 void readParameters(const YAML::Node& root, Parameters& parameters, const std::string& source = "") {
   YamlReader reader(root, source);

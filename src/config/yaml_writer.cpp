@@ -20,7 +20,7 @@ std::string bracketed(const std::vector<std::string>& items) {
   return text + "]";
 }
 
-/// The meaning, and behind it what the field may hold.
+/// The meaning, followed by the allowed values.
 std::string annotated(const std::string& meaning, const std::string& allowed) {
   return allowed.empty() ? meaning : meaning + " (" + allowed + ")";
 }
@@ -33,7 +33,7 @@ bool isPlainWord(const std::string& text) {
   return !text.empty() && starts_well(text.front()) && std::all_of(text.begin(), text.end(), allowed);
 }
 
-/// Words that YAML 1.1 parsers (that of roslaunch among them) take for a truth value or for nothing.
+/// Words that YAML 1.1 parsers (including roslaunch's) read as a boolean or null.
 bool isReservedWord(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -118,7 +118,7 @@ std::optional<std::size_t> YamlWriter::enterList(const char* name, std::size_t c
   }
   comment(meaning);
   entry(name, current_size == 0 ? "[]" : "");
-  depth_ += 2;  // one for the dash, one for the keys behind it
+  depth_ += 2;  // one for the dash, one for the keys after it
   return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Writes any parameter struct as commented YAML: every key with its meaning and what it may hold.
+/// Writes any parameter struct as commented YAML: every key with its meaning and allowed values.
 
 #include <string>
 #include <vector>
@@ -42,7 +42,7 @@ class YamlWriter : public ParameterVisitor {
   bool comments_wanted_ = true;  ///< off after the first item of a list: the others have the same keys
 };
 
-/// `text` as a YAML scalar, in quotes where a YAML parser would take the bare word for something else.
+/// `text` as a YAML scalar, quoted where a YAML parser would read the bare word as something else.
 std::string yamlScalar(const std::string& text);
 
 /// All fields of a struct with visit(), as a YAML document that readParameters() reads back without loss.

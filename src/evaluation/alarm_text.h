@@ -1,5 +1,5 @@
 #pragma once
-/// Alarms as people read them.
+/// Alarms as text.
 
 #include <string>
 #include <utility>
@@ -9,7 +9,7 @@
 
 namespace slipnav {
 
-/// The earliest first.
+/// Earliest first.
 std::vector<std::pair<std::string, Alarm>> inOrderOfAppearance(const Alarms& alarms);
 
 /// One line per alarm: "`prefix`: what (3 times, 12.5 s to 14.0 s)", in seconds since `begin`.

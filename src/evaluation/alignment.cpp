@@ -8,10 +8,10 @@
 namespace slipnav {
 namespace {
 
-/// Least horizontal extent of truth that tells a heading.
+/// Smallest horizontal extent of truth that determines a heading.
 constexpr double kMinExtentM = 1.0;
 
-/// Angle about z of the rotation that is nearest to q in the sense of the x axis seen from above.
+/// Angle about z of the rotation closest to q in terms of the x axis seen from above.
 double yaw(const Quaternion& q) {
   const Vector3 forward = q * Vector3::UnitX();
   return std::atan2(forward.y(), forward.x());
@@ -34,7 +34,7 @@ TruthTrack moveRigidly(const TruthTrack& truth, const Quaternion& rotation, cons
   return TruthTrack(std::move(samples), truth.maxGap());
 }
 
-/// Stamp at which the estimate has come `distance_m`, or its last one.
+/// Stamp at which the estimate has covered `distance_m`, or its last one.
 Nanoseconds stampAfter(const EstimateTrack& estimates, double distance_m) {
   double driven_m = 0.0;
   for (std::size_t i = 1; i < estimates.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Hours of driving, judged while they go on: of each minute one row is kept, whatever happened in it.
+/// Hours of driving, evaluated as they happen: one row is kept per minute, whatever happened in it.
 
 #include <string>
 #include <vector>
@@ -9,17 +9,17 @@
 
 namespace slipnav {
 
-/// How far an estimate is from the truth, and what it thinks of that.
+/// How far an estimate is from the truth, and its covariance.
 struct PositionError {
   double horizontal_m = 0.0;
   double horizontal_3sigma_m = 0.0;  ///< in the direction of the error
   double nees = 0.0;  ///< eᵀ(P + R)⁻¹e/3 of all three components, R being the truth's own covariance
 };
 
-/// Of the same stamp.
+/// For equal stamps.
 PositionError positionError(const EstimateSample& estimate, const TruthSample& truth);
 
-/// One moment of the drive, and what the estimates took since the row before.
+/// One moment of the drive, and the latencies since the previous row.
 struct EnduranceRow {
   double wall_s = 0.0;          ///< real time since the first estimate
   double driven_h = 0.0;        ///< since the first estimate, by the stamps
@@ -34,10 +34,10 @@ struct EnduranceRow {
 std::string enduranceCsvHeader();
 std::string enduranceCsv(const EnduranceRow& row);
 
-/// The part of a drive in which buffers take their size [h].
+/// The part of a drive in which buffers reach their size [h].
 inline constexpr double kEnduranceSettling_h = 1.0 / 6.0;
 
-/// The median over the rows of the first hour after the settling time, and of the last hour. Halves of the rest when
+/// The median over the rows of the first hour after the settling time, and of the last hour. Halves of the rest if
 /// that is shorter than two hours.
 struct Trend {
   double first = 0.0;
@@ -53,7 +53,7 @@ struct EnduranceFigures {
   double nees_mean = 0.0;    ///< 1 when the covariance is honest
 };
 
-/// Throws std::invalid_argument when less than two rows come after the settling time.
+/// Throws std::invalid_argument if fewer than two rows come after the settling time.
 EnduranceFigures enduranceFigures(const std::vector<EnduranceRow>& rows);
 
 }  // namespace slipnav

@@ -1,5 +1,5 @@
 #pragma once
-/// What an estimator run leaves behind for its evaluation.
+/// Output of an estimator run for its evaluation.
 
 #include <optional>
 #include <vector>
@@ -15,8 +15,8 @@ struct EstimateSample {
   Matrix3 covariance_enu_m2 = Matrix3::Zero();  ///< of the position
   Quaternion q_flu_to_enu = Quaternion::Identity();
   double speed_mps = 0.0;      ///< forward speed
-  std::optional<double> slip;  ///< mean slip ratio of the wheels, none when undefined
-  bool stationary = false;     ///< judged to stand still
+  std::optional<double> slip;  ///< mean slip ratio of the wheels, none if undefined
+  bool stationary = false;     ///< considered at standstill
 };
 
 /// Epochs in ascending order of stamp.

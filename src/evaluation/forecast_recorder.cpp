@@ -15,7 +15,8 @@ bool isRow(double time_s) { return std::abs(std::remainder(time_s, kRowInterval_
 }  // namespace
 
 ForecastRecorder::ForecastRecorder(const Config& config)
-    : forecaster_(Planet::byName(config.planet), config.navigation().filter, config.forecast) {}
+    : forecaster_(Planet::byName(config.planet), config.navigation().filter, config.forecast),
+      sigma_points_(config.forecast.sigma_points) {}
 
 void ForecastRecorder::clear() {
   forecaster_.reset();
@@ -48,7 +49,10 @@ void ForecastRecorder::keep(const Forecast& forecast) {
   }
   for (Eigen::Index i = 0; i < forecast.slip.times_s.size(); ++i) {
     if (isRow(forecast.slip.times_s(i))) {
-      slips_.push_back({error.stamp, forecast.slip.times_s(i), forecast.slip.mean(i), forecast.slip.stddev(i)});
+      const double mean = forecast.slip.mean(i);
+      const double stddev = forecast.slip.stddev(i);
+      slips_.push_back({error.stamp, forecast.slip.times_s(i), mean, stddev,
+                        sigma_points_.points(forecast.outlook.speed_mps, mean, stddev)});
     }
   }
 }

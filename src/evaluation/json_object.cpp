@@ -9,7 +9,7 @@
 namespace slipnav {
 namespace {
 
-/// In quotation marks. What is not printable ASCII or UTF-8 is escaped.
+/// In quotation marks. Anything but printable ASCII or UTF-8 is escaped.
 std::string quoted(const std::string& text) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
@@ -35,7 +35,7 @@ void JsonObject::addNumber(const char* key, std::optional<double> value) {
 
 void JsonObject::addText(const char* key, const std::string& value) { begin(key) << quoted(value); }
 
-/// Its members are indented by one level more.
+/// Its members are indented by one more level.
 void JsonObject::addObject(const char* key, const JsonObject& value) {
   std::ostream& out = begin(key) << '{';
   std::istringstream members(value.out_.str());

@@ -17,7 +17,7 @@ class JsonObject {
   JsonObject() { out_.imbue(std::locale::classic()); }
 
   void addCount(const char* key, std::int64_t value) { begin(key) << value; }
-  /// `null` for what is not known or not finite.
+  /// `null` if unknown or not finite.
   void addNumber(const char* key, std::optional<double> value);
   void addText(const char* key, const std::string& value);
   void addObject(const char* key, const JsonObject& value);

@@ -1,18 +1,18 @@
 #pragma once
-/// Measured figures beside their limits.
+/// Measured figures next to their limits.
 
 #include <string>
 
 namespace slipnav {
 
-/// A line for each figure, for people.
+/// One line per figure, as text.
 class LimitTable {
  public:
   void add(const std::string& figure, double measured);
   void addAtMost(const std::string& figure, double measured, double limit);
   void addAtLeast(const std::string& figure, double measured, double limit);
 
-  /// A figure beyond its limit, or that is none, has the word MISSED.
+  /// A figure beyond its limit, or missing, has the word MISSED.
   const std::string& text() const { return text_; }
 
  private:

@@ -14,7 +14,7 @@
 namespace slipnav {
 namespace {
 
-/// Of the estimate's own way [m].
+/// Length of the estimate's own path [m].
 double ownDistance(const EstimateTrack& estimates) {
   std::vector<TruthSample> samples;
   samples.reserve(estimates.size());

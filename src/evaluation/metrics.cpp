@@ -13,7 +13,7 @@
 namespace slipnav {
 namespace {
 
-/// Estimate minus truth at one truth epoch, and what the estimate thinks of it.
+/// Estimate minus truth at one truth epoch, and the covariance of the estimate.
 struct ErrorEpoch {
   Vector3 error_enu_m;
   Matrix3 covariance_enu_m2;

@@ -1,5 +1,5 @@
 #pragma once
-/// The figures by which a drive is judged: those of the paper's Tables I and II, consistency, and cost.
+/// The figures used to judge a drive: those of the paper's Tables I and II, consistency, and cost.
 ///
 /// Errors are estimate minus truth in east, north, up at the truth epochs, the estimate interpolated to them.
 
@@ -18,20 +18,20 @@
 
 namespace slipnav {
 
-/// What the run counted and measured about itself.
+/// Counts and measurements of the run about itself.
 struct RunCounters {
   std::int64_t imu_samples = 0;
   std::int64_t wheel_samples = 0;
   std::int64_t rejected_samples = 0;
   std::int64_t forecasts = 0;
-  std::vector<double> forecast_ms;        ///< time that each forecast took
+  std::vector<double> forecast_ms;        ///< computing time of each forecast
   std::optional<double> cpu_s;            ///< processor time of the run
   std::optional<double> realtime_factor;  ///< recorded time over wall time
 };
 
-/// What there is to judge of one drive.
+/// Input for judging one drive.
 struct MetricsInput {
-  EstimateTrack estimates;  ///< without the initialisation phase
+  EstimateTrack estimates;  ///< without the initialization phase
   TruthTrack truth;         ///< may be empty
   PlanarTrack wheel_only;   ///< the baseline; may be empty
   std::optional<double> no_zupt_error_pct;
@@ -44,12 +44,12 @@ struct MetricsInput {
 /// How it is judged.
 struct MetricsOptions {
   DistanceOptions distance;
-  /// Judge the errors by P + R with R the covariance that truth has of itself, instead of P alone: what is compared
-  /// with the estimate is a measurement, too.
+  /// Judge the errors by P + R, with R the truth's own covariance, instead of P alone: the reference
+  /// is a measurement, too.
   bool add_truth_covariance = true;
 };
 
-/// Names equal the keys of `metrics.json`. None where a figure cannot be told, such as errors without truth.
+/// Names equal the keys of `metrics.json`. Empty if a figure cannot be computed, such as errors without truth.
 struct Metrics {
   /// D, along truth, over the epochs of the estimate; without truth that of addLoopClosure()
   std::optional<double> distance_m;
@@ -65,9 +65,9 @@ struct Metrics {
   std::optional<double> rms_east_m;
   std::optional<double> rms_north_m;
   std::optional<double> rms_up_m;
-  /// Mean of eᵀP⁻¹e/3 over the epochs whose 3×3 position covariance P is positive definite; 1 when P is honest.
+  /// Mean of eᵀP⁻¹e/3 over the epochs whose 3×3 position covariance P is positive definite; 1 if P is honest.
   std::optional<double> position_nees_mean;
-  /// Share of the single components e_i, three per epoch, with |e_i| ≤ 3σ_i; 99.73 when errors are Gaussian and P
+  /// Share of the single components e_i, three per epoch, with |e_i| ≤ 3σ_i; 99.73 if errors are Gaussian and P
   /// honest.
   std::optional<double> coverage_3sigma_pct;
   /// 100·(horizontal error of the baseline at the last truth epoch that it covers)/D
@@ -81,7 +81,7 @@ struct Metrics {
   std::optional<double> forecast_ms_p99;
   std::optional<double> cpu_s;
   std::optional<double> realtime_factor;
-  std::int64_t truth_left_out = 0;    ///< rows of truth far off the rows about them, see withoutJumps()
+  std::int64_t truth_left_out = 0;    ///< rows of truth far off their neighbors, see withoutJumps()
   std::optional<double> final_pct;    ///< 100·horizontal_final_m/D
   std::int64_t stops_seen = 0;        ///< standstills by wheels and IMU, see StopLedger
   std::int64_t stops_used = 0;        ///< of these, with an accepted zero-velocity update
@@ -91,18 +91,18 @@ struct Metrics {
   std::optional<double> closure_m;
   std::optional<double> closure_up_m;      ///< last minus first height
   std::optional<double> closure_pct;       ///< 100·closure_m/D
-  std::optional<double> closure_3sigma_m;  ///< what the 3σ ellipse has grown by since the start, its longer half axis
+  std::optional<double> closure_3sigma_m;  ///< growth of the 3σ ellipse since the start, its longer half axis
   std::int64_t forecasts_judged = 0;       ///< whose horizon has come without a stop, see judgeForecasts()
   std::optional<double> forecast_horizon_s;
   std::optional<double> forecast_bound_m;       ///< at the horizon, mean
-  std::optional<double> forecast_growth_rms_m;  ///< of the error that came; a bound of 3σ should be three times that
+  std::optional<double> forecast_growth_rms_m;  ///< of the error; a bound of 3σ should be three times that
   std::optional<double> forecast_below_pct;     ///< share of the forecasts whose bound held
   std::string verdict;                          ///< see verdictOf()
-  Alarms problems;                         ///< of the recording: messages that could not be used, and the like
-  Alarms alarms;                           ///< what the monitoring of sensors and filter has named
+  Alarms problems;                              ///< of the recording: unusable messages, and the like
+  Alarms alarms;                                ///< everything reported by the monitoring of sensors and filter
 };
 
-/// Throws std::invalid_argument when the estimate is empty or not in order of stamp.
+/// Throws std::invalid_argument if the estimate is empty or not in order of stamp.
 Metrics computeMetrics(const MetricsInput& input, const MetricsOptions& options = {});
 
 /// 100·‖RMS error‖/D: the paper's ENU error.

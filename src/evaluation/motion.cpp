@@ -10,7 +10,7 @@ namespace slipnav {
 namespace {
 
 constexpr int kDegree = 3;
-/// Two neighbours on either side: one sample more than a cubic has coefficients.
+/// Two neighbors on either side: one sample more than a cubic has coefficients.
 constexpr std::size_t kMinWindow = 5;
 
 struct Point {
@@ -20,7 +20,7 @@ struct Point {
 
 using Piece = std::vector<Point>;
 
-/// Samples in [from, to], cut where neighbours are further apart than truth interpolates.
+/// Samples in [from, to], split where neighbors are further apart than truth interpolates.
 std::vector<Piece> continuousPieces(const TruthTrack& truth, Nanoseconds from, Nanoseconds to, bool horizontal) {
   std::vector<Piece> pieces;
   for (const TruthSample& sample : truth.samples()) {
@@ -56,7 +56,7 @@ Window windowAbout(const Piece& piece, std::size_t i, double half_window_s) {
   const double earliest_s = piece.front().t_s + half_window_s;
   const double latest_s = piece.back().t_s - half_window_s;
   const double center_s = std::max(earliest_s, std::min(piece[i].t_s, latest_s));
-  // a neighbour at just the half window belongs to it on both sides, whatever the rounding
+  // a neighbor at exactly the half window belongs to it on both sides, whatever the rounding
   constexpr double kSlackS = 1e-6;
   Window window{firstAfter(piece, center_s - half_window_s - kSlackS),
                 firstAfter(piece, center_s + half_window_s + kSlackS)};
@@ -125,11 +125,11 @@ double curveLength(const Piece& piece, std::size_t i) {
   return length_m;
 }
 
-/// Length through points too sparse to average: they are taken as they are.
+/// Length through points too sparse to average: they are used as they are.
 double interpolatedLength(const Piece& piece, double standstill_speed_mps) {
   double length_m = 0.0;
   for (std::size_t i = 0; i + 1 < piece.size(); ++i) {
-    // noise may move one pair of points but not their neighbours with them
+    // noise may move one pair of points but not their neighbors with them
     const Window pair{i, i + 2};
     const Window neighbours{i - std::min<std::size_t>(i, 1), std::min(i + 3, piece.size())};
     const double slower_mps = std::min(meanVelocity(piece, pair).norm(), meanVelocity(piece, neighbours).norm());
@@ -210,7 +210,7 @@ std::vector<Stop> findStops(const EstimateTrack& estimates, double min_duration_
   for (const Stop& stop : merged) {
     const double since_first_s = toSeconds(stop.begin - estimates.front().stamp);
     const double until_last_s = toSeconds(estimates.back().stamp - stop.end);
-    // motion too short to end a stop is too short to come before or after one as well
+    // motion too short to end a stop is also too short to precede or follow one
     if (std::min({toSeconds(stop.end - stop.begin), since_first_s, until_last_s}) >= min_duration_s) {
       stops.push_back(stop);
     }

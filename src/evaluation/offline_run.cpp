@@ -129,7 +129,7 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
   }
 }
 
-/// The samples that came before the start was known still count: it may lie before them.
+/// Samples received before the start was known still count: it may precede them.
 void OfflineRun::startWheelOnly(const Output& out) {
   const Vector3 forward_enu = out.q_flu_to_enu * Vector3::UnitX();
   wheel_only_.emplace();
@@ -165,7 +165,7 @@ TruthTrack OfflineRun::truthTrack(const TruthAlignment& alignment, const Estimat
   return alignment.heading_distance_m ? alignHeading(truth, estimates, *alignment.heading_distance_m) : truth;
 }
 
-/// Slip is that of the smoothed speed against the wheels' speed in the last interval.
+/// Slip of the smoothed speed relative to the wheel speed in the last interval.
 EstimateTrack OfflineRun::smoothedTrack() const {
   EstimateTrack track;
   auto filtered = estimates_.begin();
@@ -192,7 +192,7 @@ EstimateTrack OfflineRun::smoothedTrack() const {
   return track;
 }
 
-/// Truth that is aligned to an estimate is aligned to this one.
+/// Truth that is aligned with an estimate is aligned with this one.
 SmoothedRun OfflineRun::smoothed(const TruthAlignment& alignment, const Metrics& filtered) const {
   SmoothedRun run;
   MetricsInput input;

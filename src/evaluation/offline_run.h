@@ -1,5 +1,5 @@
 #pragma once
-/// A whole drive through the navigation as fast as it goes, and what there is to say about it afterwards.
+/// A whole drive through the navigation as fast as possible, and its report.
 
 #include <functional>
 #include <memory>
@@ -19,20 +19,20 @@
 
 namespace slipnav {
 
-/// Takes samples in order of stamp, keeps what the pipeline makes of them, and reports when the drive is over.
+/// Takes samples in order of stamp, keeps the pipeline's results, and reports when the drive is over.
 class OfflineRun {
  public:
   /// @param with_baselines also run the pipeline without zero updates, for no_zupt_error_pct
   OfflineRun(const Config& config, bool with_baselines);
 
-  /// Smooths the drive when it is over; before the first sample.
+  /// Smooths the drive when it is over; call before the first sample.
   void smoothAfterwards();
 
-  /// Who else is to have every estimate, as soon as there is one.
+  /// Receives every estimate as soon as there is one.
   void onEstimate(FilterEngine::EstimateSink sink) { on_estimate_ = std::move(sink); }
-  /// Who is to have each forecast, after the estimate that it was made with.
+  /// Receives each forecast, after the estimate it was made with.
   void onForecast(ForecastRecorder::Sink sink) { on_forecast_ = std::move(sink); }
-  /// The same as users see it.
+  /// The same in the axes of users.
   void onOutput(std::function<void(const Output&)> sink) { on_output_ = std::move(sink); }
 
   void push(const ImuSample& sample);
@@ -47,10 +47,10 @@ class OfflineRun {
   const Pipeline& pipeline() const { return pipeline_; }
 
   bool hasEstimates() const { return !estimates_.empty(); }
-  /// Why there are none, in one line: what the initialisation was waiting for.
-  std::string failure() const { return "the initialisation did not end: " + pipeline_.initializer().progress(); }
+  /// Why there are none, in one line: what the initialization was waiting for.
+  std::string failure() const { return "the initialization did not finish: " + pipeline_.initializer().progress(); }
 
-  /// Throws std::runtime_error with failure() when there are no estimates.
+  /// Throws std::runtime_error with failure() if there are no estimates.
   RunReport finish(const TruthAlignment& alignment) const;
 
  private:
@@ -68,7 +68,7 @@ class OfflineRun {
   FilterEngine::EstimateSink on_estimate_;
   ForecastRecorder::Sink on_forecast_;
   std::optional<OutputMaker> output_;
-  std::shared_ptr<FilterHistory> history_;  ///< where the drive is to be smoothed
+  std::shared_ptr<FilterHistory> history_;  ///< if the drive is to be smoothed
   EstimateTrack estimates_;
   FilterRecorder filter_rows_;
   StopLedger stops_;
@@ -76,7 +76,7 @@ class OfflineRun {
   std::optional<ForecastRecorder> forecasts_;  ///< not for a baseline
   std::optional<double> slip_;
   std::optional<PlanarDeadReckoning> wheel_only_;
-  std::vector<ImuSample> earlier_imu_;       ///< what came before the start was known
+  std::vector<ImuSample> earlier_imu_;       ///< received before the start was known
   std::vector<SpeedSample> earlier_speeds_;  ///< likewise
   std::unique_ptr<OfflineRun> without_zupt_;
   std::vector<GnssFix> truth_fixes_;

@@ -34,7 +34,7 @@ TruthTrack within(const std::vector<TumPose>& poses, Nanoseconds begin, Nanoseco
   return TruthTrack(std::move(samples));
 }
 
-/// Shift that puts `other`, turned by `turn`, where the reference is at the first epoch in common.
+/// Shift that moves `other`, rotated by `turn`, to the reference at the first epoch in common.
 Vector3 shiftToReference(const TruthTrack& other, const Quaternion& turn, const EstimateTrack& reference) {
   for (const TruthSample& sample : other.samples()) {
     if (const auto there = interpolate(reference, sample.stamp, other.maxGap())) {

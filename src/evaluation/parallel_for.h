@@ -9,17 +9,17 @@
 namespace slipnav {
 
 /// Calls work(0) … work(count − 1), up to `threads` at a time, and returns when all have ended. The first exception is
-/// thrown on; what has not begun by then is left out.
+/// rethrown; calls not started by then are skipped.
 void parallelFor(std::size_t count, std::size_t threads, const std::function<void(std::size_t)>& work);
 
-/// As many as this machine works on at the same time, at least one.
+/// Number of cores of this machine, at least one.
 std::size_t coreCount();
 
-/// So many may be at work at the same time, whoever they belong to.
+/// Limits how many pieces of work run at the same time, whoever they belong to.
 class Cores {
  public:
   explicit Cores(std::size_t count) : free_(count) {}
-  /// Waits for a free one, and runs `work` on it.
+  /// Waits for a free core, and runs `work` on it.
   void run(const std::function<void()>& work);
 
  private:

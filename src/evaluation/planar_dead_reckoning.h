@@ -20,35 +20,35 @@ struct PlanarSample {
 
 using PlanarTrack = std::vector<PlanarSample>;
 
-/// When the rover counts as standing at the beginning.
+/// When the rover counts as standing at the start.
 struct PlanarOptions {
   double standstill_speed_mps = 0.01;  ///< wheels slower than this stand still
   double min_standstill_s = 2.0;       ///< the gyro bias is taken from an initial standstill at least this long
 };
 
-/// Integrates the vertical body gyro to a heading and the wheel speed along it, on a plane, with no other knowledge
-/// than the gyro's mean while the wheels stood still at first. Until the wheels first turn the heading is held.
+/// Integrates the vertical body gyro to a heading and the wheel speed along it, on a plane, using nothing else
+/// but the gyro's mean during the initial standstill of the wheels. Until the wheels first turn the heading is held.
 ///
-/// Both inputs are means over the interval that ends at their stamp. They are taken in order of stamp, each by
-/// itself; a speed is used once the IMU has reached its stamp, so that their interleaving does not matter.
+/// Both inputs are means over the interval that ends at their stamp. Each is taken in order of stamp,
+/// independently; a speed is used once the IMU has reached its stamp, so that their interleaving does not matter.
 class PlanarDeadReckoning {
  public:
   explicit PlanarDeadReckoning(const PlanarOptions& options = {});
 
-  /// Where the track begins. Samples up to its stamp serve the gyro bias only. May be called after samples have come,
-  /// but not twice: std::logic_error.
+  /// Where the track starts. Samples up to its stamp are used only for the gyro bias. May be called after samples have
+  /// arrived, but not twice: std::logic_error.
   void start(const PlanarSample& pose);
 
-  /// @return false, and the sample is left out, when it is not later than the one before it
+  /// @return false, and the sample is dropped, if it is not later than the previous one
   bool addImu(const ImuSample& imu);
-  /// @return false, and the sample is left out, when it is not later than the one before it
+  /// @return false, and the sample is dropped, if it is not later than the previous one
   bool addSpeed(const SpeedSample& speed);
 
   /// The start pose, then one sample per wheel epoch; empty before start().
   const PlanarTrack& track() const { return track_; }
-  /// Hands the track out and goes on with its newest pose alone, for those who must not let it grow.
+  /// Returns the track and continues with its newest pose only, for callers that must not let it grow.
   PlanarTrack takeTrack();
-  /// Mean of the vertical gyro over the initial standstill [rad/s]; zero when there was none long enough.
+  /// Mean of the vertical gyro over the initial standstill [rad/s]; zero if there was none long enough.
   double gyroBias() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a campaign of many runs has come.
+/// Progress of a campaign of many runs.
 
 #include <cstddef>
 #include <ostream>
@@ -14,7 +14,7 @@ class ProgressBar {
   /// overwritten
   ProgressBar(std::string program, std::ostream& out, bool is_terminal);
 
-  /// @param note what else is to be said, for example "12 runs"
+  /// @param note additional text, for example "12 runs"
   void show(std::size_t done, std::size_t expected, const std::string& note);
   /// Ends the line.
   void finish();

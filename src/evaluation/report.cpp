@@ -21,7 +21,7 @@ namespace {
 constexpr int kCsvDigits = 12;
 constexpr const char* kComparePrefix = "compare_";
 
-/// The number, or NaN, which streams as `nan`, where there is none.
+/// The number, or NaN, which streams as `nan`, if there is none.
 double orNan(const std::optional<double>& value) { return value.value_or(std::numeric_limits<double>::quiet_NaN()); }
 
 /// One column of the table: two header lines, and how the figures of a row are written.
@@ -82,7 +82,7 @@ void addErrors(const Metrics& metrics, JsonObject& json) {
   json.addNumber("coverage_3sigma_pct", metrics.coverage_3sigma_pct);
 }
 
-/// Writes the file, or removes that of an earlier run where there is nothing to write.
+/// Writes the file, or removes that of an earlier run if there is nothing to write.
 void writeTumOrRemove(const std::string& path, const std::vector<TumPose>& poses) {
   if (poses.empty()) {
     std::error_code ignored;

@@ -79,9 +79,13 @@ void writeWheelTrackCsv(const std::string& path, const PlanarTrack& track) {
 void writeSlipForecastsCsv(const std::string& path, const std::vector<SlipForecastRow>& rows) {
   AtomicFile file(path);
   std::ostream& out = file.stream();
-  out << "t,horizon_s,mean,stddev\n" << std::setprecision(kDigits);
+  out << "t,horizon_s,mean,stddev,wheel_speed,wheel_speed_above,wheel_speed_below\n" << std::setprecision(kDigits);
   for (const SlipForecastRow& row : rows) {
-    out << formatSeconds(row.stamp) << ',' << row.horizon_s << ',' << row.mean << ',' << row.stddev << '\n';
+    out << formatSeconds(row.stamp) << ',' << row.horizon_s << ',' << row.mean << ',' << row.stddev;
+    for (const double speed_mps : row.wheel_speed_mps) {
+      out << ',' << speed_mps;
+    }
+    out << '\n';
   }
   file.commit();
 }

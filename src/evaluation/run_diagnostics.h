@@ -1,7 +1,7 @@
 #pragma once
-/// What there is to see of a run beside its estimate: biases, innovations, baselines, slip forecasts. For plots.
+/// Data of a run besides its estimate: biases, innovations, baselines, slip forecasts. For plots.
 ///
-/// Written beside the files of report.h. `t` is in UNIX seconds, `nan` stands for what is not known.
+/// Written next to the files of report.h. `t` is in UNIX seconds, `nan` means unknown.
 
 #include <array>
 #include <optional>
@@ -23,7 +23,7 @@ struct FilterRow {
   Vector3 accel_sigma_mps2 = Vector3::Zero();
   Vector3 gyro_bias_flu_radps = Vector3::Zero();
   Vector3 gyro_sigma_radps = Vector3::Zero();
-  /// Normalised innovation squared over its degrees of freedom; none where the component was not measured.
+  /// Normalized innovation squared over its degrees of freedom; none if the component was not measured.
   std::array<std::optional<double>, kComponents> nis = {};
 };
 
@@ -33,6 +33,7 @@ struct SlipForecastRow {
   double horizon_s = 0.0;  ///< ahead of that
   double mean = 0.0;       ///< of the latent slip ratio
   double stddev = 0.0;
+  std::array<double, 3> wheel_speed_mps = {};  ///< of the sigma points, that of the mean first
 };
 
 /// The rows of all files of one run.
@@ -60,10 +61,11 @@ class FilterRecorder {
 void writeFilterCsv(const std::string& path, const std::vector<FilterRow>& rows);
 /// `wheel_track.csv`: t, east, north.
 void writeWheelTrackCsv(const std::string& path, const PlanarTrack& track);
-/// `slip_forecasts.csv`: t, horizon_s, mean, stddev.
+/// `slip_forecasts.csv`: t, horizon_s, mean, stddev, wheel_speed, wheel_speed_above, wheel_speed_below: of the sigma
+/// points [m/s].
 void writeSlipForecastsCsv(const std::string& path, const std::vector<SlipForecastRow>& rows);
 /// `nees.csv`: t, nees, truth_sigma_e, truth_sigma_n, truth_sigma_u. Of the position, eᵀ(P + R)⁻¹e with three degrees
-/// of freedom and R of truth, at its epochs; and the roots of R's diagonal, 0 where truth does not say how good it is.
+/// of freedom and R of truth, at its epochs; and the roots of R's diagonal, 0 if truth has no covariance.
 void writeNeesCsv(const std::string& path, const EstimateTrack& estimates, const TruthTrack& truth);
 
 }  // namespace slipnav

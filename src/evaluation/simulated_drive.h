@@ -20,7 +20,7 @@ class SimulatedDrive {
   bool finished() const { return driver_.finished(); }
   DriveMoment moment() const;
 
-  /// What the operator commands for the coming interval.
+  /// The operator's command for the next interval.
   VelocityCommand operatorCommand();
   /// The rover executes a command for one IMU interval. @return what its sensors give
   sim::Measurements execute(const VelocityCommand& command);
@@ -33,8 +33,8 @@ class SimulatedDrive {
   sim::Driver driver_;
 };
 
-/// Called after each IMU interval with what the sensors gave and what was really the case. A policy that wants to know
-/// the estimates is given them here.
+/// Called after each IMU interval with the sensor outputs and the truth. A policy that needs
+/// the estimates gets them here.
 using DriveSink = std::function<void(const sim::Measurements&, const sim::TruthState&)>;
 
 /// Drives until the script is over.

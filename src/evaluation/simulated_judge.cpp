@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kShortestStop_s = 1.5;
 
-/// Over the three degrees of freedom; none where the covariance is not positive definite.
+/// Per degree of freedom, of three; none if the covariance is not positive definite.
 std::optional<double> neesOf(const ErrorVector& error, const ErrorCovariance& P, int index) {
   const Eigen::LLT<Matrix3> factor(P.block<3, 3>(index, index));
   if (factor.info() != Eigen::Success) {
@@ -62,7 +62,7 @@ void SimulatedJudge::addTruth(Nanoseconds imu_stamp, const sim::TruthState& trut
   }
 }
 
-/// A navigation that mends stamps gives its estimates others than the samples had: the nearest is meant.
+/// A navigation that corrects stamps gives its estimates different ones than the samples had: the nearest is meant.
 const sim::TruthState* SimulatedJudge::truthAt(Nanoseconds imu_stamp) {
   const auto distance = [imu_stamp](const StampedTruth& truth) { return std::abs(truth.imu_stamp - imu_stamp); };
   while (truths_.size() > 1 && distance(truths_[1]) <= distance(truths_[0])) {

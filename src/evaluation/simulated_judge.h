@@ -1,5 +1,5 @@
 #pragma once
-/// Compares the estimates of a simulated drive with the simulator's own truth, which knows attitude and velocity too.
+/// Compares the estimates of a simulated drive with the simulator's own truth, which includes attitude and velocity.
 
 #include <deque>
 #include <map>
@@ -13,13 +13,13 @@
 
 namespace slipnav {
 
-/// What a simulated drive shows beyond Metrics. Names equal the keys of `simulation.json`.
+/// Figures of a simulated drive beyond Metrics. Names equal the keys of `simulation.json`.
 struct SimulationFigures {
-  /// Squared normalised errors over their three degrees of freedom when the route is done; 1 when P is honest.
+  /// Squared normalized errors per degree of freedom (three) at the end of the route; 1 if P is honest.
   std::optional<double> nees_end_attitude;
   std::optional<double> nees_end_velocity;
   std::optional<double> nees_end_position;
-  std::int64_t stops_seen = 0;           ///< standstills of 1.5 s or more between driving, after the initialisation
+  std::int64_t stops_seen = 0;           ///< standstills of 1.5 s or more between driving, after the initialization
   std::int64_t stops_used = 0;           ///< of those, with a zero update
   double largest_speed_mps = 0.0;        ///< of the estimate, all directions
   double largest_wheel_speed_mps = 0.0;  ///< of the wheels' surface
@@ -34,7 +34,7 @@ std::string figuresJson(const SimulationFigures& figures);
 /// Takes truth and estimates in order.
 class SimulatedJudge {
  public:
-  /// @param route_end_m distance since the start at which the route is done
+  /// @param route_end_m distance since the start at which the route ends
   SimulatedJudge(const Planet& planet, const Vector3& imu_position_b, double route_end_m)
       : planet_(planet), imu_position_b_(imu_position_b), route_end_m_(route_end_m) {}
 

@@ -81,7 +81,7 @@ SimulationReport simulateAndMeasure(const Config& config, StopPolicy& policy, co
     policy.observe(observationOf(estimate, P, config.stationary.wheel_speed_mps));
   });
   run.onForecast([&policy](const ErrorOutlook& forecast) {
-    policy.setForecast({forecast.stamp, forecast.time_to_stop_s});
+    policy.setForecast({forecast.stamp, forecast.time_to_stop_s, forecast.kept_s});
   });
   simulateDrive(config.simulator, Planet::byName(config.planet), policy,
                 [&run, &recorder](const sim::Measurements& measurements, const sim::TruthState& truth) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Navigates and measures a simulated drive while it goes on.
+/// Navigates and measures a simulated drive in progress.
 
 #include <variant>
 #include <vector>
@@ -16,25 +16,25 @@ class SimulatedRun {
   /// @param with_baselines also without zero updates, and with forecasts
   explicit SimulatedRun(const Config& config, bool with_baselines = true);
 
-  /// Smooths the drive when it is over; before the first interval.
+  /// Smooths the drive when it is over; call before the first interval.
   void smoothAfterwards() { run_.smoothAfterwards(); }
 
-  /// Who is to have every estimate, as soon as there is one.
+  /// Receives every estimate as soon as there is one.
   void onEstimate(FilterEngine::EstimateSink sink) { on_estimate_ = std::move(sink); }
 
-  /// Who is to have each forecast, after its estimate.
+  /// Receives each forecast, after its estimate.
   void onForecast(ForecastRecorder::Sink sink) { run_.onForecast(std::move(sink)); }
 
   /// One interval of the drive.
   void add(const sim::Measurements& measurements, const sim::TruthState& truth);
 
-  /// Throws std::runtime_error when the initialisation never ended, saying what it was waiting for.
+  /// Throws std::runtime_error if the initialization never finished, saying what it was waiting for.
   RunReport finish();
 
   /// After finish().
   SimulationFigures figures() const;
 
-  // For pushMeasurements(): what is stamped late may come after what was measured later.
+  // For pushMeasurements(): a late stamp may arrive after one measured later.
   void push(const AntennaFix& fix) { enqueue(stampOf(fix), fix); }
   void push(const WheelMotion& wheels) { enqueue(wheels.stamp, wheels); }
   void push(const ImuSample& sample) { enqueue(sample.stamp, sample); }
@@ -60,14 +60,14 @@ class SimulatedRun {
   std::vector<Stamped> waiting_;  ///< in order of stamp
 };
 
-/// What came of a simulated drive.
+/// Result of a simulated drive.
 struct SimulationReport {
   RunReport run;
   SimulationFigures figures;
 };
 
-/// Drives with a policy that is given the estimates as they come, from begin to end.
-/// @param recorder what else is to be done with each interval
+/// Drives with a policy that gets the estimates as they come, from start to end.
+/// @param recorder additional work for each interval
 /// @param with_baselines see SimulatedRun; forecasts come only with them
 /// @param smooth also run it backwards
 SimulationReport simulateAndMeasure(const Config& config, StopPolicy& policy, const DriveSink& recorder = {},

@@ -111,7 +111,7 @@ SlipSamples readSlipCsv(const std::string& path) {
 SlipForecastResult forecastSlip(const SlipSamples& samples, const SlipModelParameters& parameters, double horizon_s) {
   const auto steps = static_cast<Eigen::Index>(std::floor(horizon_s / kSlipForecastStep_s + 1e-9));
   if (steps < 2) {
-    throw std::invalid_argument("slip forecast: the horizon must be two steps of 0.1 s at least");
+    throw std::invalid_argument("slip forecast: the horizon must be at least two steps of 0.1 s");
   }
   GaussianProcessSlipModel model(parameters);
   SlipForecastResult forecast;
@@ -153,7 +153,7 @@ std::string toJson(const SlipForecastResult& forecast) {
 std::string summaryOf(const SlipForecastResult& forecast) {
   std::string text = "model " + forecast.model + ": " + toString(forecast.fit.status) + ", " +
                      std::to_string(forecast.fit.samples) + " samples, " + std::to_string(forecast.fit.left_out) +
-                     " left out, log marginal likelihood " + rounded(forecast.fit.log_marginal_likelihood) + "\n";
+                     " dropped, log marginal likelihood " + rounded(forecast.fit.log_marginal_likelihood) + "\n";
   const char* separator = "";
   for (const auto& [name, value] : forecast.fit.hyperparameters) {
     text += separator + name + " " + rounded(value);

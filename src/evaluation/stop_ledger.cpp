@@ -8,9 +8,9 @@ namespace slipnav {
 namespace {
 
 constexpr double kShortestStop_s = 1.5;
-/// An encoder that stands between two counts flickers; a rover slower than this does not move between stops.
+/// An encoder between two counts flickers; a rover slower than this does not move between stops.
 constexpr double kRestSpeed_mps = 0.002;
-/// The filter may take the last sample of a rest a moment later.
+/// The filter may process the last sample of a rest a moment later.
 constexpr double kUpdateDelay_s = 0.5;
 constexpr double kQuiet = 0.25;  // of the usual variance while driving
 

@@ -1,7 +1,7 @@
 #pragma once
-/// Which standstills a drive offered, by its sensors alone, and which of them the filter made use of.
+/// Which standstills a drive offered, by its sensors alone, and which of them the filter used.
 ///
-/// The filter's own account (findStops()) leaves out the stops that it did not recognize; a drive is judged by all.
+/// The filter's own account (findStops()) lacks the stops it did not recognize; a drive is judged by all.
 
 #include <cstdint>
 #include <optional>
@@ -21,9 +21,9 @@ struct StopCounts {
 
 /// Follows wheels and raw IMU samples in order of stamp.
 ///
-/// Wheels at rest are a standstill when the IMU is quieter than it usually is while the wheels turn (half of the median
-/// spread of the angular rate, which contains no bias), or when the stationary detector has agreed. All wheels of a
-/// moving rover dead are therefore no stop.
+/// Wheels at rest are a standstill if the IMU is quieter than usual while the wheels turn (half of the median
+/// spread of the angular rate, which contains no bias), or if the stationary detector agrees. If all wheels of a
+/// moving rover fail, that is therefore not a stop.
 class StopLedger {
  public:
   StopLedger(const StationaryParams& stationary, const ImuFloor& floor, double gravity_mps2);
@@ -33,7 +33,7 @@ class StopLedger {
   /// The filter has accepted a zero-velocity update at `stamp`.
   void noteZeroUpdate(Nanoseconds stamp) { zero_updates_.push_back(stamp); }
 
-  /// Of the drive between two stamps. Standing before the first and after the last motion is no stop.
+  /// Of the drive between two stamps. Standing before the first and after the last motion is not a stop.
   StopCounts counts(Nanoseconds from, Nanoseconds to) const;
 
  private:

@@ -8,7 +8,7 @@
 
 namespace slipnav {
 
-/// How far two tracks are apart where they have the same stamps.
+/// How far two tracks are apart at common stamps.
 struct TrackComparison {
   std::size_t common = 0;  ///< epochs that both have
   double largest_m = 0.0;  ///< largest distance between them there
@@ -16,7 +16,7 @@ struct TrackComparison {
 
 TrackComparison compareTracks(const EstimateTrack& a, const EstimateTrack& b);
 
-/// One line for people, with a newline. @param name of the run that is compared with the offline one
+/// One line of text, with a newline. @param name of the run compared with the offline one
 std::string comparisonText(const std::string& name, const EstimateTrack& run, const EstimateTrack& offline);
 
 }  // namespace slipnav

@@ -17,9 +17,9 @@ constexpr double kLeastJump_m = 1.0;
 constexpr double kLargestSigmas = 3.0;
 constexpr double kLargestDeviations = 8.0;
 constexpr double kSigmaPerMad = 1.4826;  // of a Gaussian distribution
-constexpr double kAtEnds = 0.25;         // rows at either end are not in the middle of the five: less is said of them
+constexpr double kAtEnds = 0.25;         // rows at either end are not in the middle of the five: less can be said
 
-/// Distance of a row from the median of those about it [m].
+/// Distance of a row from the median of its neighborhood [m].
 double deviation(const std::vector<TruthSample>& samples, std::size_t at) {
   const std::size_t begin = std::min(at - std::min(at, kSide), samples.size() - (2 * kSide + 1));
   Vector3 difference;

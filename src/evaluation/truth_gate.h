@@ -1,5 +1,5 @@
 #pragma once
-/// Truth that can be believed.
+/// Rejects implausible truth.
 
 #include <set>
 #include <vector>
@@ -9,15 +9,15 @@
 
 namespace slipnav {
 
-/// Without rows that lie far from the median of the five about them: more than a meter, three times their usual σ and
+/// Without rows far from the median of the five around them: more than a meter, three times their usual σ and
 /// eight times the usual deviation (median absolute deviation). A satellite receiver that falls back to a single
-/// position for a moment would lengthen the way, and count as error of the estimate.
+/// position for a moment would lengthen the distance, and count as an error of the estimate.
 TruthTrack withoutJumps(const TruthTrack& truth);
 
-/// Which fixes are in the truth that an evaluation would make of all of them: of equal stamps one or none.
+/// Which fixes an evaluation would keep as truth: of equal stamps one or none.
 std::set<Nanoseconds> stampsWithoutJumps(const std::vector<GnssFix>& fixes);
 
-/// Throws std::invalid_argument of one line when truth ends before the estimate begins, or begins after its end.
+/// Throws std::invalid_argument with one line if truth ends before the estimate begins, or begins after its end.
 void requireTimeInCommon(const TruthTrack& truth, const EstimateTrack& estimates);
 
 }  // namespace slipnav

@@ -10,18 +10,18 @@
 
 namespace slipnav {
 
-/// The true pose at one instant, in the map frame or in a frame of the truth's own.
+/// The true pose at one instant, in the map frame or in the truth's own frame.
 struct TruthSample {
   Nanoseconds stamp = 0;
   Vector3 position_enu_m = Vector3::Zero();
-  std::optional<Quaternion> q_flu_to_enu = std::nullopt;  ///< attitude, where the truth has one
-  Matrix3 covariance_enu_m2 = Matrix3::Zero();            ///< of the position, zero when unknown or exact
+  std::optional<Quaternion> q_flu_to_enu = std::nullopt;  ///< attitude, if the truth has one
+  Matrix3 covariance_enu_m2 = Matrix3::Zero();            ///< of the position, zero if unknown or exact
 };
 
-/// Samples in order of stamp, with interpolation between neighbours.
+/// Samples in order of stamp, with interpolation between neighbors.
 class TruthTrack {
  public:
-  /// Longest interval between neighbours that is interpolated [s].
+  /// Longest interval between neighbors that is interpolated [s].
   static constexpr double kMaxGapS = 1.5;
 
   TruthTrack() = default;
@@ -36,7 +36,7 @@ class TruthTrack {
   const std::vector<TruthSample>& samples() const { return samples_; }
   double maxGap() const { return max_gap_s_; }  ///< [s]
 
-  /// Truth at `stamp`: position and covariance linear, attitude by slerp where both neighbours have one. None outside
+  /// Truth at `stamp`: position and covariance linear, attitude by slerp if both neighbors have one. None outside
   /// the track and inside gaps longer than maxGap().
   std::optional<TruthSample> at(Nanoseconds stamp) const;
 

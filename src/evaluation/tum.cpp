@@ -11,7 +11,7 @@ namespace slipnav {
 namespace {
 
 constexpr std::size_t kFields = 8;
-/// Largest departure of a quaternion's norm from one that rounding to a few decimals can explain.
+/// Largest departure of a quaternion's norm from one explained by rounding to a few decimals.
 constexpr double kUnitTolerance = 1e-2;
 
 TumPose parsePose(const std::vector<std::string>& fields) {

@@ -1,7 +1,7 @@
 #pragma once
 /// Trajectories in the format of the TUM RGB-D benchmark: `stamp tx ty tz qx qy qz qw`, one pose a line.
 ///
-/// Stamps are written with nine decimals straight from the integer, so that they come back bit for bit.
+/// Stamps are written with nine decimals straight from the integer, so that they round-trip bit for bit.
 
 #include <string>
 #include <vector>
@@ -20,10 +20,10 @@ struct TumPose {
 };
 
 std::vector<TumPose> tumPoses(const EstimateTrack& estimates);
-/// Where truth has no attitude the identity is written.
+/// The identity is written where truth has no attitude.
 std::vector<TumPose> tumPoses(const TruthTrack& truth);
 
-/// Writes the file in one step (it is complete or it is the old one). Throws std::runtime_error naming the path.
+/// Writes the file atomically. Throws std::runtime_error naming the path.
 void writeTum(const std::string& path, const std::vector<TumPose>& poses);
 
 /// Reads a file; skips blank lines and lines that begin with `#`. Throws std::runtime_error naming file and line.

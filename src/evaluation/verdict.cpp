@@ -32,12 +32,12 @@ class Text {
   std::ostringstream out_;
 };
 
-/// Of a drive without truth that is known to return.
+/// For a drive without truth that is known to return.
 std::string closureOf(const Metrics& metrics) {
   const double bound_m = metrics.closure_3sigma_m.value_or(0.0);
   const bool is_within = *metrics.closure_m <= bound_m;
   Text text;
-  text << (is_within ? "consistent" : "over-confident") << ": returns to its start but for " << *metrics.closure_m
+  text << (is_within ? "consistent" : "over-confident") << ": returns to its start within " << *metrics.closure_m
        << " m";
   if (metrics.closure_pct) {
     text << ", " << *metrics.closure_pct << " % of the distance";
@@ -52,7 +52,7 @@ std::string consistencyOf(const Metrics& metrics) {
   }
   const double nees = metrics.position_nees_mean.value_or(1.0);
   if (nees > kLargestNees || *metrics.coverage_3sigma_pct < kLeastCoverage_pct) {
-    return (Text() << "over-confident: 3 sigma cover " << *metrics.coverage_3sigma_pct << " % of the errors, NEES "
+    return (Text() << "over-confident: 3 sigma covers " << *metrics.coverage_3sigma_pct << " % of the errors, NEES "
                    << nees)
         .str();
   }

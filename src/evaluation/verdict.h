@@ -1,5 +1,5 @@
 #pragma once
-/// One line that says what a run is worth.
+/// One line that rates a run.
 
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace slipnav {
 
-/// "consistent", "cautious" (errors far below what the covariance says), "over-confident: ..." (far above), or "not
-/// judged: no truth"; followed by "worse than wheels and gyro alone: ..." and "stops seen but not used: ..." where that
-/// is so.
+/// "consistent", "cautious" (errors far below the covariance), "over-confident: ..." (far above), or "not
+/// judged: no truth"; followed by "worse than wheels and gyro alone: ..." and "stops seen but not used: ..." if
+/// applicable.
 /// @param uses_stops whether zero-velocity updates are part of the run
 std::string verdictOf(const Metrics& metrics, bool uses_stops);
 

@@ -11,18 +11,18 @@ namespace {
 
 constexpr double kStep_s = 0.1;
 constexpr int kLargestShift = 300;  // steps
-/// Slower changes (slopes, biases) are taken out.
+/// Slower changes (slopes, biases) are removed.
 constexpr int kHighPass = 50;  // steps
 constexpr double kLeastCorrelation = 0.4;
-/// Shifts nearer to the best one than this belong to its peak.
+/// Shifts closer than this to the best one belong to its peak.
 constexpr int kPeak = 15;  // steps
-/// The next peak has to be lower by this factor: regular stops repeat themselves.
+/// The next peak must be lower by this factor: regular stops repeat themselves.
 constexpr double kClearly = 0.85;
 constexpr std::size_t kLeastSamples = 200;
 
 using Signal = std::vector<double>;
 
-/// Takes a running mean away.
+/// Subtracts a running mean.
 Signal highPass(const Signal& signal) {
   Signal sums(1, 0.0);
   for (const double value : signal) {
@@ -39,7 +39,7 @@ Signal highPass(const Signal& signal) {
   return result;
 }
 
-/// Normalised by the energy where both have samples. @param shift of b in steps
+/// Normalized by the energy where both have samples. @param shift of b in steps
 double correlation(const Signal& a, const Signal& b, int shift) {
   double product = 0.0;
   double energy_a = 0.0;
@@ -56,7 +56,7 @@ double correlation(const Signal& a, const Signal& b, int shift) {
   return energy_a > 0.0 && energy_b > 0.0 ? product / std::sqrt(energy_a * energy_b) : 0.0;
 }
 
-/// The wheels' signal against one or two of the IMU's, whichever way they point.
+/// The wheels' signal against one or two of the IMU's, in either direction.
 class Shifts {
  public:
   Shifts(const std::vector<Signal>& imu, const Signal& wheels) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether the clocks of wheels and IMU agree, by the motion that both see.
+/// Whether the clocks of wheels and IMU agree, by the motion both observe.
 
 #include "inspection/motion_table.h"
 
@@ -8,7 +8,7 @@ namespace slipnav {
 /// By correlation over shifts of half a minute either way.
 struct ClockOffset {
   bool known = false;           ///< one shift fits clearly better than all others
-  double wheels_ahead_s = 0.0;  ///< stamps of the wheels less those of the IMU, of the same motion
+  double wheels_ahead_s = 0.0;  ///< stamps of the wheels less those of the IMU, for the same motion
   double correlation = 0.0;
   bool by_turns = false;  ///< heading rates; else accelerations
 };

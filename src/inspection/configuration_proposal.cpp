@@ -9,16 +9,16 @@
 namespace slipnav {
 namespace {
 
-/// A radius from positions is taken when it is known to this share.
+/// A radius from positions is used if it is known to this share.
 constexpr double kSureRadius = 0.02;
 /// A track from the gyros likewise.
 constexpr double kSureTrack = 0.05;
-/// Fixes better than this tell a heading after the usual starting drive of 10 m.
+/// Fixes better than this determine a heading after the usual starting drive of 10 m.
 constexpr double kGoodFix_m = 0.5;
 /// initialization.min_rest_s and some reserve.
 constexpr double kLongStart_s = 6.0;
 constexpr double kLeastFixes = 20.0;
-/// A delay below it is not told from the way in which intervals are taken.
+/// A smaller delay cannot be separated from how intervals are taken.
 constexpr double kLeastDelay_s = 0.1;
 constexpr double kLargestDelay_s = 1.0;
 
@@ -32,8 +32,8 @@ class Proposal {
 
   std::string text(const std::string& source) {
     yaml_ = "# From " + source +
-            ", by check. What is not here keeps its default: give what a data sheet and a ruler\n" +
-            "# say (imu.noise, imu.input.sampling, imu.mount.x_m to z_m).\n";
+            ", by check. Anything not listed keeps its default: add what a data sheet and a ruler\n" +
+            "# give (imu.noise, imu.input.sampling, imu.mount.x_m to z_m).\n";
     writeTopics();
     writeFrames();
     writeImu();
@@ -87,7 +87,7 @@ class Proposal {
     yaml_ += mount.empty() && noise.empty() ? "" : "imu:\n" + mount + noise;
   }
 
-  /// What a data sheet may be too modest about.
+  /// What a data sheet may understate.
   std::string noiseLines() const {
     const LeastBias bias = leastBias(found_.rest);
     std::string lines;
@@ -106,14 +106,14 @@ class Proposal {
     const Mounting& mounting = found_.mounting;
     yaml_ += "\n";
     if (!mounting.is_sure) {
-      comment("imu.mount: this drive does not tell it");
+      comment("imu.mount: not determined by this drive");
       return "";
     }
     if (mounting.has_turn && mounting.turn_per_rate < 0.0) {
       comment("imu.mount: gyros and wheels contradict each other");
       return "";
     }
-    const std::string measured = decimal(radToDeg(mounting.left_over_rad), 1) + " deg left over, heading ± " +
+    const std::string measured = decimal(radToDeg(mounting.left_over_rad), 1) + " deg remaining, heading ± " +
                                  decimal(radToDeg(mounting.forward_std_rad), 1) + " deg (1 sigma)";
     const bool by_tf = options_.tf && isNear(toRotation(*options_.tf));
     comment(by_tf
@@ -134,7 +134,7 @@ class Proposal {
     return (other * found_.mounting.nearest.transpose()).trace() > 1.0 + 2.0 * std::cos(0.25 * kPi);
   }
 
-  /// Radius in m and where it comes from; 0 when it is not known.
+  /// Radius in m and its source; 0 if it is not known.
   double radius(std::string& reason) const {
     if (options_.wheel_radius_m > 0.0) {
       reason = "radius as given";
@@ -152,11 +152,11 @@ class Proposal {
     return 0.0;
   }
 
-  /// Between left and right wheels [m]; 0 when it is not known, and the heading rate of the wheels is not used then.
+  /// Between left and right wheels [m]; 0 if it is not known, and the heading rate of the wheels is not used then.
   double track(double radius_m) {
     const Mounting& mounting = found_.mounting;
     if (!mounting.has_turn || mounting.turn_per_rate <= 0.0) {
-      comment("the drive does not tell the track: with y_m 0 the wheels say nothing of turns; measure it");
+      comment("the drive does not determine the track: with y_m 0 wheel turns are not used; measure it");
       return 0.0;
     }
     const double track_m = (found_.track.in_meters ? 1.0 : radius_m) * mounting.turn_per_rate;
@@ -206,7 +206,7 @@ class Proposal {
     }
   }
 
-  /// Stands at first, with fixes that are good enough to find a heading.
+  /// Stands at first, with fixes good enough to find a heading.
   bool startsUnderSatellites() const {
     std::size_t good = 0;
     const double start_end_s = found_.rest.rests.empty() ? 0.0 : found_.rest.rests.front().end_s;

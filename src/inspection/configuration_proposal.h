@@ -1,5 +1,5 @@
 #pragma once
-/// A configuration from a drive: only what the drive is sure of, each value with its reason.
+/// A configuration from a drive: only what the drive determines reliably, each value with its reason.
 
 #include <string>
 
@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// YAML for --config of all commands. @param source what it comes from, for the first line
+/// YAML for --config of all commands. @param source its origin, for the first line
 std::string proposedYaml(const Inspection& inspection, const InspectionOptions& options, const std::string& source);
 
 }  // namespace slipnav

@@ -123,10 +123,9 @@ std::string label(const WheelJoint& wheel) {
 void checkVelocity(const std::string& subject, const EncoderPicture& picture, Findings& findings) {
   const bool moves = picture.turned_rad > kLeastTurned_rad;
   if (picture.has_velocity && picture.velocity_not_finite > 0) {
-    findings.push_back(
-        {Severity::kDoubtful, subject,
-         std::to_string(picture.velocity_not_finite) + " velocities are not finite numbers",
-         picture.has_position ? "positions are used instead; look at the driver" : "look at the driver"});
+    findings.push_back({Severity::kDoubtful, subject,
+                        std::to_string(picture.velocity_not_finite) + " velocities are not finite numbers",
+                        picture.has_position ? "positions are used instead; check the driver" : "check the driver"});
   } else if (picture.has_velocity && picture.velocity_always_zero && moves) {
     findings.push_back({Severity::kDoubtful, subject, "velocities are always 0 while positions move",
                         "positions are used instead; a driver without velocities leaves the array empty"});
@@ -173,7 +172,7 @@ void checkEncoders(const JointRecord& record, const std::vector<WheelJoint>& whe
     checkVelocity(record.topic + " " + label(wheel), pictureOf(record, wheel.index), findings);
   }
   for (const std::string& problem : rates.problems) {
-    findings.push_back({Severity::kDoubtful, record.topic, problem, "look at the driver; such messages are left out"});
+    findings.push_back({Severity::kDoubtful, record.topic, problem, "check the driver; such messages are rejected"});
   }
 }
 
@@ -184,7 +183,7 @@ void checkDirection(const WheelTrack& wheels, const Mounting& mounting, Findings
   findings.push_back({Severity::kUnusable, wheels.topic,
                       "wheels and IMU disagree on the direction in " + counted(mounting.batches_backward, "piece") +
                           " of the drive and agree in " + std::to_string(mounting.batches_forward) +
-                          ", and the wheels' speed has no sign",
+                          ", and the wheel speed has no sign",
                       "publish the speed with its sign: negative when the vehicle reverses"});
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the wheels' joints say: signs, wrap, resolution, velocities against positions, units.
+/// Checks of the wheel joints: signs, wrap, resolution, velocities against positions, units.
 
 #include "inspection/finding.h"
 #include "inspection/mounting.h"

@@ -11,11 +11,11 @@ namespace slipnav {
 namespace {
 
 constexpr double kStandardGravity_mps2 = 9.80665;
-/// Samples of which the mean rate is taken: no vibration lasts so long.
+/// Samples over which the mean rate is taken: no vibration lasts that long.
 constexpr std::size_t kBlock = 20;
 /// No rover turns faster than 290 °/s for the length of a block.
 constexpr double kLargestRate_radps = 5.0;
-/// Sensors and their scale factors are within it.
+/// Sensors and their scale factors are within this.
 constexpr double kForceTolerance = 0.25;
 /// Wheels and gyros differ by scrub and slip, not by this factor.
 constexpr double kUnitFactor = 15.0;
@@ -23,12 +23,12 @@ constexpr double kUnitFactor = 15.0;
 constexpr double kLeastTrack_m = 0.03;
 /// The same in wheel radii.
 constexpr double kLeastTrackInRadii = 0.5;
-/// Wheels in m/s and accelerometer agree within it, unless a radius is wrong.
+/// Wheels in m/s and accelerometer agree within this, unless a radius is wrong.
 constexpr double kLeastGain = 0.5;
 constexpr double kLargestGain = 2.0;
 constexpr double kReversed_rad = 0.75 * kPi;
 constexpr double kAxisTolerance_rad = 0.35;
-/// Where wheels slip much, their turns do not show an axis.
+/// Where wheels slip much, their turns do not reveal an axis.
 constexpr double kClearTurn = 0.5;
 constexpr double kClearForce = 0.8;
 constexpr double kTiltWorthSaying_rad = 0.1;
@@ -75,25 +75,26 @@ void checkTurn(const std::string& topic, const Mounting& mounting, const WheelTr
   if (mounting.turn_per_rate < 0.0) {
     findings.push_back(
         {Severity::kUnusable, topic,
-         "gyros and wheels turn in opposite directions about the axis that the specific force calls up (correlation " +
+         "gyros and wheels turn in opposite directions about the axis that the specific force says is up "
+         "(correlation " +
              decimal(mounting.turn_correlation, 2) + ")",
-         "the driver gives gravity upside down (a level sensor at rest says +9.8 m/s² on the axis that points up), the "
-         "gyro's axes are not those of the accelerometer, or left and right wheels are exchanged"});
+         "the driver publishes gravity with the wrong sign (a level sensor at rest reads +9.8 m/s² upwards), the "
+         "gyro's axes are not those of the accelerometer, or left and right wheels are swapped"});
     return;
   }
   const double off_rad = std::acos(std::clamp(mounting.turn_axis.dot(mounting.up), -1.0, 1.0));
   if (off_rad > kAxisTolerance_rad && mounting.turn_correlation > kClearTurn) {
     findings.push_back({Severity::kDoubtful, topic,
                         "the vehicle turns about an axis " + decimal(radToDeg(off_rad), 0) +
-                            " deg away from the one that the specific force calls up",
-                        "gyro and accelerometer do not have the same axes; turn them in the driver"});
+                            " deg away from the one that the specific force says is up",
+                        "gyro and accelerometer do not have the same axes; rotate them in the driver"});
   }
 }
 
 void checkForward(const std::string& topic, const Mounting& mounting, const WheelTrack& wheels, Findings& findings) {
   if (!mounting.has_forward) {
     findings.push_back({Severity::kRemark, topic,
-                        "starts and stops are too few or too soft to tell which way the sensor points",
+                        "starts and stops are too few or too gentle to tell which way the sensor points",
                         "drive straight ahead and brake a few times, or give imu.mount"});
     return;
   }
@@ -102,7 +103,7 @@ void checkForward(const std::string& topic, const Mounting& mounting, const Whee
     findings.push_back({Severity::kDoubtful, wheels.topic,
                         "the accelerometer sees " + decimal(mounting.force_gain, 2) + " ± " +
                             decimal(mounting.force_gain_std, 2) + " times the acceleration of the wheels",
-                        "look at the unit of the wheels' speed and at wheels[].radius_m"});
+                        "check the unit of the wheel speed and wheels[].radius_m"});
   }
   if (mounting.centripetal_ratio > 0.0 && kUnitFactor * mounting.centripetal_ratio < 1.0 &&
       kUnitFactor * kSigmas * mounting.centripetal_std < 1.0) {
@@ -124,14 +125,13 @@ void compareWithConfiguration(const std::string& topic, const Mounting& mounting
                         "or imu.mount.yaw_deg"});
   } else if (!upright || !straight) {
     const MountParams found = toMountParams(mounting.nearest);
-    findings.push_back(
-        {Severity::kUnusable, topic,
-         "imu.mount does not say how the sensor is turned: what it calls up is off by " +
-             decimal(radToDeg(tilt_rad), 0) + " deg, forward by " + decimal(radToDeg(std::abs(turn_rad)), 0) + " deg",
-         mounting.is_sure
-             ? "imu: {mount: {roll_deg: " + decimal(found.roll_deg, 0) + ", pitch_deg: " + decimal(found.pitch_deg, 0) +
-                   ", yaw_deg: " + decimal(found.yaw_deg, 0) + "}}, by this drive"
-             : "give the angles of the sensor in the vehicle"});
+    findings.push_back({Severity::kUnusable, topic,
+                        "imu.mount does not match the sensor: its up axis is off by " + decimal(radToDeg(tilt_rad), 0) +
+                            " deg, forward by " + decimal(radToDeg(std::abs(turn_rad)), 0) + " deg",
+                        mounting.is_sure ? "imu: {mount: {roll_deg: " + decimal(found.roll_deg, 0) +
+                                               ", pitch_deg: " + decimal(found.pitch_deg, 0) +
+                                               ", yaw_deg: " + decimal(found.yaw_deg, 0) + "}}, by this drive"
+                                         : "give the angles of the sensor in the vehicle"});
   }
 }
 
@@ -156,7 +156,7 @@ void checkImuMeasurements(const ImuRecord& record, Findings& findings) {
   if (broken > 0) {
     findings.push_back({Severity::kDoubtful, record.topic,
                         counted(broken, "sample") + " with numbers that are not finite",
-                        "they are left out; look at the driver"});
+                        "they are rejected; check the driver"});
   }
 }
 
@@ -171,7 +171,7 @@ ImuUnits checkImuUnits(const ImuRecord& record, Findings& findings) {
     units.has_gravity = in_g;
     findings.push_back({Severity::kUnusable, record.topic, complaint,
                         in_g ? "multiply by 9.80665 in the driver, or switch it to m/s²"
-                             : "sensor_msgs/Imu has the specific force with gravity in it, in m/s²: look for a raw or "
+                             : "sensor_msgs/Imu has the specific force including gravity, in m/s²: look for a raw or "
                                "unfiltered topic of the driver"});
   }
   const double fast_radps = fastTurning(record);
@@ -202,7 +202,7 @@ void checkMounting(const std::string& topic, const Mounting& mounting, const Whe
                         "the sensor is mounted " + axesText(mounting.nearest) + " (roll " + decimal(found.roll_deg, 0) +
                             ", pitch " + decimal(found.pitch_deg, 0) + ", yaw " + decimal(found.yaw_deg, 0) +
                             " deg); " + decimal(radToDeg(mounting.left_over_rad), 1) +
-                            " deg are left over, heading known to ±" + decimal(radToDeg(mounting.forward_std_rad), 1) +
+                            " deg remain, heading known to ±" + decimal(radToDeg(mounting.forward_std_rad), 1) +
                             " deg (1σ)",
                         mounting.left_over_rad > kTiltWorthSaying_rad
                             ? "measure the rest of the angles, or let ./run calibrate do it from a drive with truth"

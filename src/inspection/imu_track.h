@@ -1,5 +1,5 @@
 #pragma once
-/// Samples of one IMU in even time, and their means over any window.
+/// Samples of one IMU in regular time, and their means over any window.
 
 #include <vector>
 
@@ -23,7 +23,7 @@ class ImuTrack {
 
   /// Index of the first sample later than `time_s`.
   std::size_t firstAfter(double time_s) const;
-  /// Over the samples in (from, to]; zero where there is none.
+  /// Over the samples in (from, to]; zero if there is none.
   Vector3 meanForce(double from_s, double to_s) const { return mean(force_sum_, from_s, to_s); }
   Vector3 meanRate(double from_s, double to_s) const { return mean(rate_sum_, from_s, to_s); }
 

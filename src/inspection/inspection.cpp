@@ -15,20 +15,20 @@ namespace {
 constexpr StreamNeeds kImuNeeds = {20.0, 1000.0, false};  // scatter: see ImuClock
 constexpr StreamNeeds kWheelNeeds = {2.0, 1000.0, true};
 constexpr StreamNeeds kPositionNeeds = {0.0, 1000.0, false};
-/// No message is on its way for so long.
+/// No message takes this long.
 constexpr double kApart_s = 0.5;
-/// wheel.stamp_delay_s corrects up to so much.
+/// wheel.stamp_delay_s corrects up to this much.
 constexpr double kCorrectable_s = 1.0;
-/// Sharper than a shift is known.
+/// Smaller shifts are not resolved.
 constexpr double kLeastShift_s = 0.1;
-/// Of the first pose of a truth in the robot's own frame, and of those that follow (sine of half of the tilt).
+/// For the first pose of a truth in the robot's own frame, and for those that follow (sine of half of the tilt).
 constexpr double kZero_m = 1e-3;
 constexpr double kLevel = 1e-4;
 constexpr double kLeans = 2e-3;
-/// Speeds that DirectionCheck looks at.
+/// Speeds that DirectionCheck considers.
 constexpr double kRestSpeed_mps = 0.02;
 
-/// Begins at exactly zero with attitude zero, and leans later: the frame is that of the robot at the start.
+/// Starts at exactly zero with attitude zero, and is tilted later: the frame is that of the robot at the start.
 bool isInStartFrame(const PoseRecord& record) {
   const auto tilt = [](const RawPoseSample& sample) {  // sine of half of it
     return sample.q_to_parent ? sample.q_to_parent->vec().head<2>().norm() : 0.0;
@@ -119,7 +119,7 @@ class Inspector {
           other.frame != result_.roles.imu->frame) {
         say(Severity::kDoubtful, other.topic,
             "comes from two sensors: frame_id '" + result_.roles.imu->frame + "' is used, '" + other.frame +
-                "' is left out (" + counted(other.samples.size(), "message") + ")",
+                "' is ignored (" + counted(other.samples.size(), "message") + ")",
             "give each driver its own topic, or set frames.imu");
       }
     }
@@ -151,13 +151,13 @@ class Inspector {
   void checkScatter(const std::string& topic, const StampFaults& faults) {
     if (faults.scatter_s > 0.0) {
       say(Severity::kDoubtful, topic,
-          "stamps scatter by " + decimal(1e3 * faults.scatter_s, 1) + " ms about an even pace of " +
-              decimal(1e3 * faults.usual_interval_s, 1) + " ms: those of a busy host",
-          "they are corrected; a driver that takes the sensor's own time is better");
+          "stamps scatter by " + decimal(1e3 * faults.scatter_s, 1) + " ms about a steady interval of " +
+              decimal(1e3 * faults.usual_interval_s, 1) + " ms, as from a busy host",
+          "they are corrected; a driver that uses the sensor's own time is better");
     }
     if (faults.lost > 0) {
       say(Severity::kDoubtful, topic, counted(faults.lost, "sample") + " lost",
-          "look at the load of the computer and the queue of the driver");
+          "check the load of the computer and the queue of the driver");
     }
   }
 
@@ -233,7 +233,8 @@ class Inspector {
       }
     }
     if (!wrong.empty()) {
-      say(Severity::kUnusable, topic, "turn against '" + by_data.front().name + "' by their configured signs: " + wrong,
+      say(Severity::kUnusable, topic,
+          "turn opposite to '" + by_data.front().name + "' according to their configured signs: " + wrong,
           "wheels[].sign: -1 where an encoder counts backwards when the vehicle drives forward");
     }
   }
@@ -249,19 +250,19 @@ class Inspector {
     }
     say(std::abs(ahead_s) > kApart_s ? Severity::kUnusable : Severity::kDoubtful, result_.track.topic,
         "its stamps are " + decimal(std::abs(ahead_s), 2) + " s " + (ahead_s > 0.0 ? "ahead of" : "behind") +
-            " those of " + result_.roles.imu->topic + ", by the motion that both see (" +
+            " those of " + result_.roles.imu->topic + ", by the motion that both observe (" +
             (result_.clock.by_turns ? "heading rates" : "accelerations") + ", correlation " +
             decimal(result_.clock.correlation, 2) + ")",
         std::abs(ahead_s) <= kCorrectable_s ? "wheel: {stamp_delay_s: " + decimal(ahead_s, 2) + "}"
-                                            : "let one computer stamp both, or synchronise the clocks (chrony)");
+                                            : "let one computer stamp both, or synchronize the clocks (chrony)");
   }
 
   void compareReceipt(const std::string& topic, const StreamStatistics& statistics) {
     const double apart_s = imu_statistics_.delay_s - statistics.delay_s;
     const bool known = imu_statistics_.zero == 0 && statistics.zero == 0 && statistics.messages > 0;
     if (known && std::abs(apart_s) > kApart_s) {
-      say(Severity::kUnusable, topic, "by when messages came, " + clocksApart(result_.roles.imu->topic, topic, apart_s),
-          "synchronise the clocks (chrony); for a receiver in GPS time see initialization.fix_stamp_offset_s");
+      say(Severity::kUnusable, topic, "by message arrival, " + clocksApart(result_.roles.imu->topic, topic, apart_s),
+          "synchronize the clocks (chrony); for a receiver in GPS time see initialization.fix_stamp_offset_s");
     }
   }
 
@@ -281,7 +282,7 @@ class Inspector {
     }
   }
 
-  /// What the estimator itself would complain of.
+  /// Complaints that the estimator itself would make.
   void checkAsEstimator(const ImuTrack& imu, const Matrix3& C_sensor_to_flu, double ahead_s) {
     const Matrix3 C_sensor_to_b = Vector3(1.0, -1.0, -1.0).asDiagonal() * C_sensor_to_flu;
     InputCheck check(result_.rest.force.norm(), kRestSpeed_mps);
@@ -299,7 +300,7 @@ class Inspector {
       check.push(motion);
     }
     if (!said.empty()) {
-      say(Severity::kUnusable, result_.roles.imu->topic, said, "the estimator refuses such data");
+      say(Severity::kUnusable, result_.roles.imu->topic, said, "the estimator rejects such data");
     }
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Looks at a recording as somebody who has seen many: what is in it, what is wrong with it, what follows from it.
+/// Examines a recording: what is in it, what is wrong with it, and what follows from it.
 
 #include <optional>
 #include <string>
@@ -18,19 +18,19 @@
 
 namespace slipnav {
 
-/// What is known before the recording is looked at.
+/// Prior knowledge about the recording.
 struct InspectionOptions {
-  std::optional<Config> config;   ///< held against the recording
-  std::optional<MountParams> tf;  ///< pose of the IMU in base_link by /tf and /tf_static
+  std::optional<Config> config;   ///< checked against the recording
+  std::optional<MountParams> tf;  ///< pose of the IMU in base_link from /tf and /tf_static
   std::string truth;              ///< topic or file of the truth; "" to guess
   double wheel_radius_m = 0.0;    ///< 0: not known
 };
 
-/// Everything that was found.
+/// All results.
 struct Inspection {
   Findings findings;
   Roles roles;                     ///< points into the recording
-  std::vector<WheelJoint> wheels;  ///< empty where odometry is used
+  std::vector<WheelJoint> wheels;  ///< empty if odometry is used
   WheelTrack track;
   RestPicture rest;
   Mounting mounting;
@@ -38,7 +38,7 @@ struct Inspection {
   WheelScale scale;
   TruthTrack fixes;
   TruthTrack truth;
-  bool truth_in_start_frame = false;  ///< begins at exactly zero with attitude zero and is not level later
+  bool truth_in_start_frame = false;  ///< starts at exactly zero with attitude zero and is not level later
   bool stamps_are_set = true;         ///< of the wheels
 };
 

@@ -11,11 +11,11 @@ namespace {
 /// Long enough to average vibration, short enough to see a start.
 constexpr double kWindow_s = 0.6;
 constexpr double kStep_s = 0.3;
-/// Gravity carried along by gyros of any grade stays good for so long.
+/// Gravity propagated by gyros of any grade stays good for this long.
 constexpr double kBatch_s = 4.8;
 constexpr double kLongestGap_s = 1.0;
 
-/// What remains of the gyros' bias where no rest tells it: a vehicle does not go on tilting.
+/// Residual gyro bias where no rest determines it: a vehicle does not keep tilting.
 Vector3 biasOf(const ImuTrack& imu, const RestPicture& rest) {
   if (rest.known) {
     return rest.rate;
@@ -25,7 +25,7 @@ Vector3 biasOf(const ImuTrack& imu, const RestPicture& rest) {
   return mean - up * up.dot(mean);
 }
 
-/// Gravity in the sensor's axes, as the gyros turn it.
+/// Gravity in the sensor's axes, as rotated by the gyros.
 class CarriedGravity {
  public:
   CarriedGravity(const ImuTrack& imu, const RestPicture& rest, const Vector3& bias)
@@ -37,7 +37,7 @@ class CarriedGravity {
     sums_.assign(1, Vector3::Zero());
     first_ = next_;
   }
-  /// Mean over (from, to] of the present batch.
+  /// Mean over (from, to] of the current batch.
   Vector3 mean(double from_s, double to_s) {
     const std::size_t begin = std::max(imu_.firstAfter(from_s), first_);
     const std::size_t end = imu_.firstAfter(to_s);
@@ -64,7 +64,7 @@ class CarriedGravity {
   std::vector<Vector3> sums_;
 };
 
-/// Takes the mean over each batch away from acceleration and force: what is left of gravity and bias.
+/// Subtracts the mean over each batch from acceleration and force: residual gravity and bias.
 void center(std::vector<MotionRow>& rows) {
   for (std::size_t begin = 0; begin < rows.size();) {
     std::size_t end = begin;

@@ -16,10 +16,10 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr double kLeastBatches = 5.0;
-/// A direction that is not known to this has not been found.
+/// A direction known less well than this counts as not found.
 constexpr double kLargestStd_rad = 0.35;
 constexpr double kHalfQuarter_rad = 0.25 * kPi;
-/// A batch speaks clearly when force and wheels correlate by more.
+/// A batch is clear if force and wheels correlate by more.
 constexpr double kClear = 0.6;
 constexpr double kSigmas = 3.0;
 /// Sine of a pitch of 90° less this.
@@ -139,12 +139,12 @@ void estimateForward(const std::vector<std::vector<MotionRow>>& batches, Mountin
   const auto agree = static_cast<double>(mounting.batches_forward);
   const auto contradict = static_cast<double>(mounting.batches_backward);
   const bool has_sign = mounting.force_gain > kSigmas * mounting.force_gain_std ||
-                        agree - contradict >= kSigmas * std::sqrt(agree + contradict + 1.0);  // as of a coin
+                        agree - contradict >= kSigmas * std::sqrt(agree + contradict + 1.0);  // a sign test
   mounting.has_forward =
       static_cast<double>(batches.size()) >= kLeastBatches && mounting.forward_std_rad < kLargestStd_rad && has_sign;
 }
 
-/// Lateral force against speed times heading rate alone.
+/// Lateral force against speed times heading rate only.
 void estimateCentripetal(const std::vector<std::vector<MotionRow>>& batches, Mounting& mounting) {
   const Vector3 left = mounting.up.cross(mounting.forward);
   const std::vector<std::vector<Complex>> motions = motionByBatch(batches, mounting.up);

@@ -1,5 +1,5 @@
 #pragma once
-/// How the IMU is turned in the vehicle, from what it says while the vehicle drives. See doc/check.md.
+/// Orientation of the IMU in the vehicle, from its measurements while the vehicle drives. See doc/check.md.
 
 #include "core/sensors/imu_mount.h"
 #include "inspection/motion_table.h"
@@ -13,21 +13,21 @@ struct Mounting {
   bool has_forward = false;
   Vector3 forward = Vector3::UnitX();
   double forward_std_rad = 0.0;
-  double force_gain = 0.0;  ///< specific force over the wheels' acceleration; 1 when the wheels are in m/s
+  double force_gain = 0.0;  ///< specific force over the wheels' acceleration; 1 if the wheels are in m/s
   double force_gain_std = 0.0;
-  double force_correlation = 0.0;  ///< where it is low, slip of the wheels lowers the gain
-  /// Lateral force over speed times heading rate, divided by force_gain; 1 when the gyros are in rad/s.
+  double force_correlation = 0.0;  ///< where it is low, wheel slip lowers the gain
+  /// Lateral force over speed times heading rate, divided by force_gain; 1 if the gyros are in rad/s.
   double centripetal_ratio = 0.0;
   double centripetal_std = 0.0;
   std::size_t batches_forward = 0;   ///< in which force and wheels clearly agree
   std::size_t batches_backward = 0;  ///< in which they clearly contradict
 
   bool has_turn = false;
-  /// The wheels' turn over the heading rate by the gyros (about up, positive left): the effective track where the turn
-  /// is a difference of speeds, about 1 where it is a rate. The gyros are the exact ones: wheels slip.
+  /// The wheels' turn over the heading rate by the gyros (about up, positive left): the effective track if the turn
+  /// is a difference of speeds, about 1 if it is a rate. The gyros are treated as exact: wheels slip.
   double turn_per_rate = 0.0;
   double turn_per_rate_std = 0.0;
-  Vector3 turn_axis = Vector3::UnitZ();  ///< about which the gyros turn when the wheels say left
+  Vector3 turn_axis = Vector3::UnitZ();  ///< about which the gyros turn when the wheels turn left
   double turn_correlation = 0.0;
 
   Matrix3 nearest = Matrix3::Identity();  ///< of the 24 quarter turns, sensor to forward-left-up
@@ -40,7 +40,7 @@ Mounting estimateMounting(const MotionTable& table, const RestPicture& rest);
 /// The 24 rotations that take axes to axes.
 std::vector<Matrix3> quarterTurns();
 
-/// Angles of a rotation from the sensor to forward-left-up, as imu.mount has them; position zero.
+/// Angles of a rotation from the sensor to forward-left-up, in the form of imu.mount; position zero.
 MountParams toMountParams(const Matrix3& C_sensor_to_flu);
 
 /// The inverse of toMountParams().

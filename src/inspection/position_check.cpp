@@ -12,18 +12,18 @@
 namespace slipnav {
 namespace {
 
-/// Qualities are mixed when the worst 1σ is so many times the best.
+/// Quality is mixed if the worst 1σ is this many times the best.
 constexpr double kMixed = 5.0;
 constexpr double kPoor_m = 1.0;
 /// Slopes that no rover drives on average.
 constexpr double kSteep = 0.3;
 constexpr double kPiece_m = 10.0;
 constexpr double kChord_m = 1.0;
-/// Of the time of a piece that wheels have to cover, and of its way that may be backwards.
+/// Share of the time of a piece that wheels must cover, and of its distance that may be backwards.
 constexpr double kComplete = 0.9;
 constexpr double kReverseShare = 0.01;
 constexpr std::size_t kLeastPieces = 3;
-/// Radii are not further off; beyond, the unit is wrong.
+/// Radii are not further off than this; beyond, the unit is wrong.
 constexpr double kScaleTolerance = 0.05;
 constexpr double kManyJumps = 0.1;
 
@@ -44,17 +44,17 @@ void checkSolutions(const FixRecord& record, Findings& findings) {
   const std::string of = " of " + counted(record.samples.size(), "message");
   if (without > 0) {
     findings.push_back({without == record.samples.size() ? Severity::kDoubtful : Severity::kRemark, record.topic,
-                        std::to_string(without) + of + " have no fix", "they are left out; open sky at the start"});
+                        std::to_string(without) + of + " have no fix", "they are rejected; start under open sky"});
   }
   if (nowhere > 0) {
     findings.push_back({Severity::kDoubtful, record.topic,
                         std::to_string(nowhere) + of + " are at latitude 0, longitude 0 with a good status",
-                        "they are left out: the receiver has no fix yet; let its driver say so"});
+                        "they are rejected: the receiver has no fix yet; its driver should report that"});
   }
   if (unknown > 0) {
     findings.push_back(
         {Severity::kDoubtful, record.topic, std::to_string(unknown) + of + " have no covariance",
-         "5 m horizontally and 10 m vertically are taken (1σ); let the driver give what the receiver says"});
+         "5 m horizontally and 10 m vertically are assumed (1σ); the driver should pass on the receiver's values"});
   }
 }
 
@@ -79,10 +79,10 @@ void checkQuality(const FixRecord& record, Findings& findings) {
     findings.push_back(
         {Severity::kDoubtful, record.topic,
          "fixes of mixed quality, " + span + ": " + std::to_string(poor) + " of them far worse than the others",
-         "each counts by its covariance; wait for the receiver to settle before driving"});
+         "each is weighted by its covariance; wait for the receiver to settle before driving"});
   } else if (best > kPoor_m) {
     findings.push_back({Severity::kRemark, record.topic, "fixes are good to " + span,
-                        "the start is as uncertain as that, and a truth of it judges no better"});
+                        "the start has that uncertainty, and so does truth taken from them"});
   }
 }
 
@@ -101,11 +101,11 @@ void checkHeight(const std::string& topic, const TruthTrack& positions, Findings
     findings.push_back(
         {Severity::kDoubtful, topic,
          "height wanders by " + decimal(span_m, 0) + " m within " + decimal(largest_m, 0) + " m of the start",
-         "do not judge heights by it: truth: {align: heading} and look at horizontal figures"});
+         "do not judge heights by it: use truth: {align: heading} and the horizontal figures"});
   }
 }
 
-/// Way by the wheels between two times [unit of the track]; negative where the vehicle reversed or rows are missing.
+/// Distance by the wheels between two times [unit of the track]; negative if the vehicle reversed or rows are missing.
 double wayForward(const WheelTrack& wheels, double from_s, double to_s) {
   double way = 0.0;
   double covered_s = 0.0;
@@ -162,9 +162,9 @@ void checkJumps(const std::string& topic, const TruthTrack& positions, Findings&
     const bool many = static_cast<double>(jumps) > kManyJumps * static_cast<double>(rows);
     findings.push_back({Severity::kDoubtful, topic,
                         counted(jumps, "outlier") + " among " + counted(rows, "position") +
-                            ": more than a meter from those about " + (jumps == 1 ? "it" : "them"),
-                        many ? "look at the receiver: a tenth and more is no outlier any more"
-                             : "left out as truth, of little weight at the start"});
+                            ": more than a meter from those around " + (jumps == 1 ? "it" : "them"),
+                        many ? "check the receiver: a tenth or more are not outliers"
+                             : "rejected as truth, of little weight at the start"});
   }
 }
 
@@ -179,7 +179,7 @@ void checkTimeInCommon(const std::string& topic, const TruthTrack& positions, do
     findings.push_back({Severity::kUnusable, topic,
                         "has no time in common with the IMU: it begins " + decimal(begin_s - imu_begin_s, 1) +
                             " s after it and ends " + decimal(end_s - imu_end_s, 1) + " s after it",
-                        "take the truth of this drive, and look at its time scale (GPS, UTC, local)"});
+                        "use the truth of this drive, and check its time scale (GPS, UTC, local)"});
     return;
   }
   const double common_s = std::min(end_s, imu_end_s) - std::max(begin_s, imu_begin_s);
@@ -187,7 +187,7 @@ void checkTimeInCommon(const std::string& topic, const TruthTrack& positions, do
     findings.push_back(
         {Severity::kRemark, topic,
          "covers " + decimal(common_s, 0) + " s of the " + decimal(imu_end_s - imu_begin_s, 0) + " s of the drive",
-         "errors are judged there alone"});
+         "errors are evaluated there only"});
   }
 }
 
@@ -234,14 +234,14 @@ void checkWheelScale(const std::string& topic, const WheelScale& scale, const Wh
   const std::string measured = decimal(scale.value, 4) + " ± " + decimal(scale.std, 4);
   const std::string from = " over " + decimal(scale.distance_m, 0) + " m against " + topic;
   if (!wheels.in_meters) {
-    findings.push_back({Severity::kRemark, wheels.topic, "the wheels' radius is " + measured + " m," + from,
+    findings.push_back({Severity::kRemark, wheels.topic, "the wheel radius is " + measured + " m," + from,
                         "measure it, or let ./run calibrate find it"});
     return;
   }
   const bool wrong = std::abs(scale.value - 1.0) > kScaleTolerance + 3.0 * scale.std;
   findings.push_back({wrong ? Severity::kDoubtful : Severity::kRemark, wheels.topic,
                       "ground over wheels is " + measured + from,
-                      wrong ? "look at wheels[].radius_m, or at the unit of the odometry" : "nothing"});
+                      wrong ? "check wheels[].radius_m, or the unit of the odometry" : "nothing"});
 }
 
 }  // namespace slipnav

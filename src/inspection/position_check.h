@@ -1,5 +1,5 @@
 #pragma once
-/// Positions by satellites and truth: quality, outliers, height, time in common, and what they say of the wheels.
+/// Positions from satellites and truth: quality, outliers, height, overlap in time, and what they say about the wheels.
 
 #include "evaluation/truth_track.h"
 #include "inspection/finding.h"
@@ -15,7 +15,7 @@ TruthTrack positionsOf(const PoseRecord& record, Nanoseconds origin);
 /// height.
 void checkFixes(const FixRecord& record, const TruthTrack& positions, Findings& findings);
 
-/// Rows far off those about them.
+/// Rows far off their neighbors.
 void checkJumps(const std::string& topic, const TruthTrack& positions, Findings& findings);
 
 /// @param imu_begin_s, imu_end_s stamps of the IMU after the origin
@@ -30,7 +30,7 @@ struct WheelScale {
   double distance_m = 0.0;
 };
 
-/// Over pieces of 10 m, the way along chords of a meter against that of the wheels; the median.
+/// Over pieces of 10 m, the distance along chords of a meter against that of the wheels; the median.
 WheelScale wheelScale(const TruthTrack& positions, const WheelTrack& wheels);
 
 void checkWheelScale(const std::string& topic, const WheelScale& scale, const WheelTrack& wheels, Findings& findings);

@@ -1,5 +1,5 @@
 #pragma once
-/// A recording as it is: no axes turned, no units changed, nothing left out.
+/// A raw recording: no axes rotated, no units converted, nothing dropped.
 
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@ struct MessageTime {
   Nanoseconds received = 0;
 };
 
-/// In the sensor's own axes; [m/s²] and [rad/s] if the driver does as it should.
+/// In the sensor's own axes; [m/s²] and [rad/s] if the driver is correct.
 struct RawImuSample {
   MessageTime time;
   Vector3 specific_force = Vector3::Zero();
@@ -34,7 +34,7 @@ struct ImuRecord {
   std::size_t without_rate = 0;   ///< likewise angular_velocity_covariance[0] = -1
 };
 
-/// Values in the order of the names of the record; empty where the message has none.
+/// Values in the order of the record's names; empty if the message has none.
 struct RawJointSample {
   MessageTime time;
   std::vector<double> position_rad;
@@ -48,11 +48,11 @@ struct JointRecord {
   std::vector<RawJointSample> samples;
 };
 
-/// Pose and motion of an odometry; of a pose the motion is absent.
+/// Pose and motion of an odometry; a pose has no motion.
 struct RawPoseSample {
   MessageTime time;
   Vector3 position_m = Vector3::Zero();
-  std::optional<Quaternion> q_to_parent;  ///< attitude, where it is known
+  std::optional<Quaternion> q_to_parent;  ///< attitude, if known
   double forward_mps = 0.0;
   double yaw_rate_radps = 0.0;  ///< positive left
 };
@@ -65,7 +65,7 @@ struct PoseRecord {
   std::vector<RawPoseSample> samples;
 };
 
-/// A position by satellites, whatever its status says.
+/// A satellite position, whatever its status.
 struct RawFixSample {
   MessageTime time;
   bool has_fix = false;     ///< by its status
@@ -91,7 +91,7 @@ struct TransformRecord {
   Quaternion q_child_to_parent = Quaternion::Identity();
 };
 
-/// Every topic, also those of no use here.
+/// Every topic, including those not used here.
 struct TopicRecord {
   std::string topic;
   std::string type;
@@ -99,7 +99,7 @@ struct TopicRecord {
   std::size_t publishers = 0;
 };
 
-/// All parts of one drive together, in the order in which they were recorded.
+/// All parts of one drive together, in recording order.
 struct Recording {
   Nanoseconds begin = 0;
   Nanoseconds end = 0;

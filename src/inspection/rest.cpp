@@ -8,7 +8,7 @@ namespace slipnav {
 namespace {
 
 constexpr double kShortest_s = 2.0;
-/// At either end of a rest the vehicle still sways.
+/// At either end of a rest the vehicle is still swaying.
 constexpr double kMargin_s = 0.5;
 /// Two neighboring samples of white noise differ by this many standard deviations.
 constexpr double kDifferenceFactor = 1.4142135623730951;
@@ -16,10 +16,10 @@ constexpr double kDifferenceFactor = 1.4142135623730951;
 constexpr double kStillForce_mps2 = 0.3;
 constexpr double kStillRate_radps = 0.03;
 constexpr double kLargeBias_radps = 0.001;
-/// The gyros of the cheapest sensors are not further off: 5 °/s.
+/// Even the cheapest gyros are not further off: 5 °/s.
 constexpr double kLargestGyroBias_radps = 0.087;
 constexpr double kBlock_s = 0.5;
-/// Gravity on Earth is within it.
+/// Gravity on Earth is within this.
 constexpr double kGravity_mps2 = 9.806;
 constexpr double kGravitySpan_mps2 = 0.03;
 /// Beyond, it is another unit or another planet.
@@ -43,7 +43,7 @@ bool isIn(const std::vector<StillTime>& rests, double from_s, double to_s) {
                      [=](const StillTime& rest) { return to_s >= rest.begin_s && from_s <= rest.end_s; });
 }
 
-/// A vehicle that turns on the spot has a forward speed of zero, too.
+/// A vehicle turning on the spot has zero forward speed, too.
 bool isTurning(const ImuTrack& imu, const StillTime& rest) {
   const Vector3 mean = imu.meanRate(rest.begin_s, rest.end_s);
   bool changes = false;
@@ -99,14 +99,14 @@ void describeRests(const std::string& topic, const RestPicture& picture, Finding
     total_s += rest.end_s - rest.begin_s + 2.0 * kMargin_s;
   }
   findings.push_back({Severity::kRemark, topic,
-                      counted(picture.rests.size(), "rest") + " of 2 s and more, " + decimal(total_s, 0) +
+                      counted(picture.rests.size(), "rest") + " of 2 s or more, " + decimal(total_s, 0) +
                           " s in all; samples scatter by " + noiseText(picture.force_std, picture.rate_std) +
                           " there, from one to the next by " +
                           noiseText(picture.driving_force_std, picture.driving_rate_std) + " while driving",
                       "nothing: it is learned; imu.noise takes the data sheet's values"});
   if (picture.force_std.maxCoeff() > kStillForce_mps2 || picture.rate_std.maxCoeff() > kStillRate_radps) {
-    findings.push_back({Severity::kDoubtful, topic, "the vehicle is not still while its wheels stand",
-                        "nobody touches it at rest; with an engine that runs, raise stationary.accel_std_mps2 and "
+    findings.push_back({Severity::kDoubtful, topic, "the vehicle is not still while its wheels are at rest",
+                        "do not touch it at rest; with an engine running, raise stationary.accel_std_mps2 and "
                         "stationary.gyro_std_deg_per_s"});
   }
 }
@@ -125,7 +125,7 @@ std::vector<StillTime> restsOf(const WheelTrack& wheels) {
   };
   for (const WheelRow& row : wheels.rows) {
     if (is_open && row.time_s - open.end_s > kShortest_s) {
-      close();  // nobody saw what happened between
+      close();  // the motion in between is unknown
     }
     if (row.largest > wheels.rest_speed) {
       close();
@@ -163,7 +163,8 @@ LeastBias leastBias(const RestPicture& picture) {
 
 void checkRests(const std::string& topic, const RestPicture& picture, Findings& findings) {
   if (!picture.known) {
-    findings.push_back({Severity::kRemark, topic, "no rest of 2 s or more: nothing tells biases and level at once",
+    findings.push_back({Severity::kRemark, topic,
+                        "no rest of 2 s or more: biases and level are not known from the start",
                         "stand for 30 s before driving, and for 3 s now and then; initialization.source: motion "
                         "starts without a rest"});
     return;

@@ -31,7 +31,7 @@ bool contains(const std::string& topic, const Words& words) {
                      [&lower](const char* word) { return lower.find(word) != std::string::npos; });
 }
 
-/// The record with the highest positive score; of equals the one with more samples.
+/// The record with the highest positive score; if tied the one with more samples.
 template <class Record, class Score>
 const Record* bestOf(const std::vector<Record>& records, Score score) {
   const Record* best = nullptr;
@@ -96,7 +96,7 @@ bool has(const Recording& recording, const std::string& name) {
                      [&name](const TopicRecord& topic) { return sameTopic(topic.topic, name) && topic.messages > 0; });
 }
 
-/// @param role topic that would do; "" for none
+/// @param role topic that would fit; "" for none
 void requireTopic(const Recording& recording, const std::string& key, const std::string& name, const std::string& role,
                   const std::string& type, Findings& findings) {
   if (has(recording, name)) {

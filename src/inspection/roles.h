@@ -1,5 +1,5 @@
 #pragma once
-/// Which topic of a recording is what, by type, by name and by what is in it.
+/// Role of each topic in a recording, by type, name and content.
 
 #include "config/topics.h"
 #include "inspection/finding.h"
@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// The record for each role, none where the recording has nothing for it. They point into the recording.
+/// The record for each role, null if the recording has nothing for it. They point into the recording.
 struct Roles {
   const ImuRecord* imu = nullptr;
   const JointRecord* joints = nullptr;
@@ -17,13 +17,13 @@ struct Roles {
   const PoseRecord* truth_pose = nullptr;
 };
 
-/// @param wheel_names of the configuration, to know the right joints; may be empty
+/// @param wheel_names from the configuration, to recognize the right joints; may be empty
 Roles proposeRoles(const Recording& recording, const TopicNames& names, const std::vector<std::string>& wheel_names);
 
 /// Topics without a leading slash compare equal to those with one.
 bool sameTopic(const std::string& a, const std::string& b);
 
-/// Names of a given configuration that the recording does not have, with what it has instead.
+/// Configured names that the recording does not have, with what it has instead.
 void checkTopicNames(const Recording& recording, const Roles& roles, const TopicNames& names, Findings& findings);
 
 /// Every topic with its type, messages and role, one line each.

@@ -11,13 +11,13 @@ namespace {
 /// Longer than this many usual intervals, and than kGap_s, is a loss and not jitter.
 constexpr double kGapFactor = 3.0;
 constexpr double kGap_s = 0.5;
-/// Stamps of a clock that is read when a sample is taken scatter by less than this share of an interval.
+/// Stamps from a clock read at the time of sampling scatter by less than this share of an interval.
 constexpr double kEvenJitter = 0.1;
-/// Of the usual interval.
+/// Relative to the usual interval.
 constexpr double kOffPace = 0.25;
-/// A clock that is ahead by so much more than messages have waited was set.
+/// A clock ahead by this much more than messages were delayed was set.
 constexpr double kLongestJump_s = 60.0;
-/// An odd repeated stamp costs nothing.
+/// An occasional repeated stamp does no harm.
 constexpr double kFewEqual = 0.01;
 
 struct Intervals {
@@ -37,7 +37,7 @@ Intervals intervalsOf(const std::vector<MessageTime>& times) {
       } else if (interval == 0) {
         ++result.counts.equal;
       } else if (interval <= -kRestartBackstep) {
-        result.counts.set_back_s.push_back(toSeconds(-interval));  // the usual interval is added when it is known
+        result.counts.set_back_s.push_back(toSeconds(-interval));  // the usual interval is added once known
       } else {
         ++result.counts.backwards;
       }
@@ -72,7 +72,7 @@ void noteIntervals(const std::vector<double>& forward_s, StreamStatistics& stati
   statistics.rate_hz = covered_s > 0.0 ? usual / covered_s : 0.0;
 }
 
-/// Until a clock is set back: after that it says something else.
+/// Until a clock is set back: after that it means something else.
 double medianDelay(const std::vector<MessageTime>& times) {
   std::vector<double> delays_s;
   Nanoseconds before = 0;
@@ -101,7 +101,7 @@ void checkSetting(const std::string& topic, const StreamStatistics& statistics, 
     findings.push_back({Severity::kDoubtful, topic,
                         "the clock was set back " + counted(statistics.set_back_s.size(), "time") + ", by up to " +
                             decimal(largest_s, 2) + " s",
-                        "the estimate goes on for steps up to a minute; let a time server slew the clock instead "
+                        "the estimate continues across steps up to a minute; let a time server slew the clock instead "
                         "(chronyd without makestep)"});
   }
 }
@@ -111,7 +111,7 @@ void checkOrder(const std::string& topic, const StreamStatistics& statistics, Fi
   if (static_cast<double>(statistics.equal) > kFewEqual * messages) {
     findings.push_back({Severity::kDoubtful, topic,
                         std::to_string(statistics.equal) + " of " + counted(statistics.messages, "message") +
-                            " have the stamp of the message before",
+                            " have the stamp of the previous message",
                         "stamp each sample when it was taken; until then the estimator spreads them evenly"});
   }
   if (statistics.backwards > 0) {
@@ -133,19 +133,19 @@ void checkPace(const std::string& topic, const StreamStatistics& statistics, con
       (statistics.rate_hz < needs.least_rate_hz || statistics.rate_hz > needs.most_rate_hz)) {
     findings.push_back({Severity::kDoubtful, topic,
                         "comes at " + decimal(statistics.rate_hz, 1) + " Hz, where " + decimal(needs.least_rate_hz, 0) +
-                            " to " + decimal(needs.most_rate_hz, 0) + " Hz are wanted",
+                            " to " + decimal(needs.most_rate_hz, 0) + " Hz are required",
                         "choose another rate in the driver"});
   }
   if (needs.even && statistics.jitter_s > kEvenJitter * statistics.interval_s) {
     findings.push_back({Severity::kDoubtful, topic,
-                        "intervals of the stamps scatter by ±" + decimal(1e3 * statistics.jitter_s, 1) + " ms about " +
+                        "stamp intervals scatter by ±" + decimal(1e3 * statistics.jitter_s, 1) + " ms about " +
                             decimal(1e3 * statistics.interval_s, 1) + " ms",
                         "let the driver stamp when the sample was taken; see wheel.stamp_std_s"});
   } else if (statistics.off_pace > 0 && statistics.jitter_s <= kEvenJitter * statistics.interval_s) {
     findings.push_back({Severity::kRemark, topic,
-                        counted(statistics.off_pace, "interval") + " off the pace of " +
+                        counted(statistics.off_pace, "interval") + " off the usual " +
                             decimal(1e3 * statistics.interval_s, 1) + " ms by more than a quarter",
-                        "nothing: single stamps are corrected or left out"});
+                        "nothing: single stamps are corrected or rejected"});
   }
 }
 

@@ -8,7 +8,7 @@
 namespace slipnav {
 namespace {
 
-/// A joint that has turned by less over a whole drive drives nothing.
+/// A joint that has turned by less over a whole drive is not a driven wheel.
 constexpr double kLeastTurned_rad = 1.0;
 
 const std::array<const char*, 8> kLeftWords = {"l", "fl", "lf", "rl", "bl", "lb", "ml", "cl"};
@@ -45,7 +45,7 @@ bool isCalledWheel(const std::string& name) {
   return lower.find("wheel") != std::string::npos && !steers;
 }
 
-/// By positions or velocities, whatever it has.
+/// By positions or velocities, whichever it has.
 bool hasTurned(const JointRecord& record, std::size_t joint) {
   double turned_rad = 0.0;
   const RawJointSample* before = nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-/// Which joints are the wheels, and on which side they are, by their names and by how they turn.
+/// Which joints are wheels, and on which side, by their names and by how they turn.
 
 #include <string>
 #include <vector>
@@ -12,20 +12,20 @@ namespace slipnav {
 /// Of the vehicle.
 enum class Side { kUnknown, kLeft, kRight };
 
-/// By the words in a name: "left", "right", and the usual shorts (fl, rr, l, r).
+/// By the words in a name: "left", "right", and the usual abbreviations (fl, rr, l, r).
 Side sideOf(const std::string& name);
 
 /// A joint that drives the vehicle.
 struct WheelJoint {
   std::size_t index = 0;  ///< in the arrays of its record
-  std::string name;       ///< "" where messages have no names
+  std::string name;       ///< "" if messages have no names
   Side side = Side::kUnknown;
-  double sign = 1.0;      ///< −1 where it counts backwards when the vehicle drives forward
+  double sign = 1.0;      ///< −1 if it counts backwards when the vehicle drives forward
   double radius_m = 0.0;  ///< 0: not known
   double y_m = 0.0;       ///< left of the middle; 0: not known
 };
 
-/// Of the joints of a record those that are called wheels; where none is, those with a side; else those that have
+/// The joints of a record that are named like wheels; if there are none, those with a side; otherwise those that have
 /// turned at all. Signs are not known yet.
 std::vector<WheelJoint> wheelsByName(const JointRecord& record);
 

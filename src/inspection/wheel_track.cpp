@@ -12,11 +12,11 @@ namespace {
 
 /// No wheel of a rover turns faster.
 constexpr double kLargestRate_radps = 200.0;
-/// Of the usual speed while driving; below is at rest.
+/// Relative to the usual driving speed; below is at rest.
 constexpr double kRestShare = 0.04;
-/// What turns in place moves, too: at about this distance from the middle.
+/// Turning in place counts as motion, too: at about this distance from the middle.
 constexpr double kTurnArm_m = 0.25;
-/// Shorter intervals are put together.
+/// Shorter intervals are merged.
 constexpr double kLeast_s = 0.099;
 constexpr double kMergeGap_s = 0.01;
 /// Longer intervals are gaps.
@@ -69,7 +69,7 @@ WheelRow rowOf(const WheelSample& sample, double interval_s, const std::vector<W
   return row;
 }
 
-/// Rows that are shorter than kLeast_s become one: counts of an encoder over a short interval are coarse.
+/// Merges rows shorter than kLeast_s: encoder counts over a short interval are coarse.
 std::vector<WheelRow> merged(const std::vector<WheelRow>& rows) {
   std::vector<WheelRow> result;
   WheelRow sum;
@@ -112,7 +112,7 @@ void finish(WheelTrack& track) {
   track.rest_speed = moving.empty() ? 0.0 : kRestShare * percentile(moving, 75.0);
 }
 
-/// In straight driving all wheels go the same way: turning in place says nothing about signs.
+/// In straight driving all wheels turn the same way: turning in place says nothing about signs.
 double likeness(const JointRates& rates, std::size_t a, std::size_t b) {
   double sum = 0.0;
   for (const WheelSample& sample : rates.samples) {

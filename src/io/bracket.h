@@ -1,5 +1,5 @@
 #pragma once
-/// Neighbours of an epoch in an ordered track.
+/// Neighbors of an epoch in an ordered track.
 
 #include <algorithm>
 #include <cstddef>
@@ -17,7 +17,7 @@ struct Bracket {
   double fraction;
 };
 
-/// Neighbours of `stamp` in samples ordered by their member `stamp`. None outside the track, and none strictly inside
+/// Neighbors of `stamp` in samples ordered by their member `stamp`. None outside the track, and none strictly inside
 /// a gap longer than `max_gap_s`.
 template <class Sample>
 std::optional<Bracket> findBracket(const std::vector<Sample>& samples, Nanoseconds stamp, double max_gap_s) {

@@ -1,7 +1,7 @@
 #pragma once
 /// Calendar, GPS time and UTC to UNIX time.
 ///
-/// UNIX time counts 86 400 s a day: an inserted leap second 23:59:60 shares its stamps with the 00:00:00 that follows.
+/// UNIX time counts 86 400 s a day: an inserted leap second 23:59:60 shares its stamps with the following 00:00:00.
 
 #include "slipnav/core/base/types.h"
 
@@ -22,7 +22,7 @@ struct CalendarTime {
 Nanoseconds calendarNanoseconds(const CalendarTime& time);
 
 /// The same for a week and a time of week counted from 1980-01-06 (weeks not rolled over). Throws
-/// std::invalid_argument when out of range.
+/// std::invalid_argument if out of range.
 Nanoseconds calendarNanoseconds(int gps_week, Nanoseconds time_of_week_ns);
 
 /// UNIX time of calendar nanoseconds in GPS time: less the leap seconds since 1980-01-06 (IERS Bulletin C; 18 s since

@@ -25,7 +25,7 @@ void refuseOtherDatum(const Fields& fields) {
     }
     if (field.find("tokyo") != std::string::npos) {
       throw std::invalid_argument(
-          "positions are of the Tokyo datum: write the solution again with WGS84 (rtkpost: Options, Output, "
+          "positions use the Tokyo datum: write the solution again with WGS84 (rtkpost: Options, Output, "
           "Datum/Height)");
     }
     if (field.find("geodetic") != std::string::npos) {
@@ -47,7 +47,7 @@ class Reader {
       readComment(line.substr(line.find('%') + 1));
     } else if (fields.front().front() == '$') {
       throw std::invalid_argument(
-          "sentences of NMEA: write the solution as Lat/Lon/Height (rtkpost: Options, Output, Solution Format)");
+          "NMEA sentences: write the solution as Lat/Lon/Height (rtkpost: Options, Output, Solution Format)");
     } else if (!header_) {
       throw std::invalid_argument("a solution before the header line that names the columns");
     } else {

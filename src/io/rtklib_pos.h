@@ -4,10 +4,10 @@
 ///
 /// Understood: latitude/longitude/height in degrees or degrees-minutes-seconds, ECEF, and east-north-up baselines with
 /// a `% ref pos` line in degrees, degrees-minutes-seconds or ECEF; time as date or as week and seconds, in GPST, UTC or
-/// JST; any of the field separators space, tab, comma, semicolon; names of columns in capitals or not; columns of
-/// velocity, also those of baselines, which the header names and the rows lack. Heights have to be ellipsoidal and
-/// positions of WGS84: a file whose header says that they are geodetic (above the geoid) or of the Tokyo datum is
-/// refused, since neither is known here; so are sentences of NMEA.
+/// JST; any of the field separators space, tab, comma, semicolon; names of columns in capitals or not; velocity
+/// columns, including those of baselines, which the header names and the rows lack. Heights must be ellipsoidal and
+/// positions WGS84: a file whose header says that they are geodetic (above the geoid) or use the Tokyo datum is
+/// rejected, since neither is known here; so are NMEA sentences.
 
 #include <istream>
 #include <string>
@@ -39,13 +39,13 @@ struct RtklibSolution {
   int satellites = 0;
 };
 
-/// Whether a name is that of an RTKLIB solution file, by its ending, in capitals or not.
+/// Whether the name has the ending of an RTKLIB solution file, in capitals or not.
 bool isRtklibFile(const std::string& name);
 
-/// Reads a file. Throws std::runtime_error that names the file, and the line where one cannot be understood: a bad
+/// Reads a file. Throws std::runtime_error that names the file, and the line if one cannot be understood: a bad
 /// number or date, a row with fewer fields than the header names up to the ratio, rows without a header. Blank lines
-/// are skipped. Of a row of quality 0 (an epoch without solution, a time mark that is not valid) or with numbers that
-/// are not finite only that is said.
+/// are skipped. For a row of quality 0 (an epoch without solution, an invalid time mark) or with numbers that
+/// are not finite only the flaw is set.
 std::vector<RtklibSolution> readRtklibPos(const std::string& path);
 
 /// The same from a stream; `name` stands for the file in messages.

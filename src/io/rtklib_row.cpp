@@ -18,7 +18,7 @@ constexpr Nanoseconds kJstAheadOfUtc = 9 * 3600 * kSecond;
 
 /// Time, three coordinates, Q, ns and the six elements of the covariance.
 constexpr std::size_t kMinColumns = 12;
-/// The same, age and ratio. Velocities may follow, which rows of baselines lack although their header names them.
+/// The same, age and ratio. Velocities may follow, which baseline rows lack although their header names them.
 constexpr std::size_t kMaxColumns = 14;
 /// A time of one column takes two fields, an angle in degrees, minutes and seconds takes three.
 constexpr std::size_t kTimeFields = 2;
@@ -94,7 +94,7 @@ Vector3 parseVector(const Fields& fields, std::size_t at) {
   return {numberField(fields[at]), numberField(fields[at + 1]), numberField(fields[at + 2])};
 }
 
-/// Degrees from degrees, minutes and seconds; the sign stands before the degrees, which may be -0.
+/// Degrees from degrees, minutes and seconds; the sign precedes the degrees, which may be -0.
 double parseDms(const Fields& fields, std::size_t at) {
   const double degrees = std::abs(numberField(fields[at]));
   const double magnitude = degrees + numberField(fields[at + 1]) / 60.0 + numberField(fields[at + 2]) / 3600.0;
@@ -127,7 +127,7 @@ Position fromEcef(const Vector3& position_m) {
   return {{degToRad(latitude_deg), degToRad(longitude_deg), height_m}, enuToNed() * C_enu_to_ecef.transpose()};
 }
 
-/// Of a comment "ref pos : ...": degrees where the solutions are so or are baselines, ECEF where the solutions are.
+/// From a comment "ref pos : ...": degrees if the solutions are so or are baselines, ECEF if the solutions are.
 Geodetic parseReference(const Fields& fields) {
   if (fields.size() == 2 * kAngleFields + 1) {
     return fromDegrees(parseDmsVector(fields, 0)).geodetic;
@@ -197,7 +197,7 @@ bool isNotFinite(const std::string& field) {
   return text.find("nan") != std::string::npos || text.find("inf") != std::string::npos;
 }
 
-/// What is the matter with a row that holds no position, or "". A file of events says of a time mark "Q=0, ...".
+/// What is wrong with a row without a position, or "". An event file marks a time mark with "Q=0, ...".
 std::string flawOf(const Header& header, const Fields& fields) {
   const std::size_t quality_at = qualityField(header);
   if ((fields.size() > quality_at && fields[quality_at] == "0") ||

@@ -27,11 +27,11 @@ struct Header {
 /// Fields between any of the separators that RTKLIB offers.
 Fields fieldsOf(const std::string& line);
 
-/// The header line by its columns in lower case; nothing for other comments. Throws std::invalid_argument for columns
-/// that are none of a solution.
+/// The header line from its columns in lower case; nothing for other comments. Throws std::invalid_argument for columns
+/// that are not those of a solution.
 std::optional<Header> parseHeader(const Fields& columns);
 
-/// One row. @param reference fields of the comment "ref pos", which baselines start from; empty when there was none.
+/// One row. @param reference fields of the comment "ref pos", the origin of baselines; empty if there was none.
 /// Throws std::invalid_argument that says what cannot be understood.
 RtklibSolution parseRow(const Header& header, const Fields& fields, const Fields& reference);
 

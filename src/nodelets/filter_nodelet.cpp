@@ -1,8 +1,8 @@
 /// slipnav/Filter: the error-state Kalman filter.
 ///
 /// In: ins_steps, initial_state, joint_states or wheel_odometry, gps/fix (with `gnss.use: always`), slip_forecast (for
-/// checkpoints). Out: correction,
-/// odometry, nav_state, slip, hand_over, start_request, TF. Services: save_checkpoint, set_state.
+/// checkpoints). Out: correction, odometry, nav_state, slip, hand_over, start_request, TF. Services: save_checkpoint,
+/// set_state.
 
 #include <slipnav/FilterCorrection.h>
 #include <slipnav/InsSteps.h>
@@ -13,29 +13,24 @@
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include <algorithm>
 #include <boost/make_shared.hpp>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "core/navigation/continuous_wheels.h"
 #include "core/navigation/look_ahead.h"
 #include "core/navigation/patience.h"
-#include "core/navigation/wheel_sessions.h"
-#include "core/ordering/jump_filter.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/estimate_publisher.h"
+#include "ros/messages/filter_wheels.h"
 #include "ros/messages/fix_input.h"
+#include "ros/messages/hand_over.h"
 #include "ros/messages/internal_messages.h"
-#include "ros/messages/wheel_input.h"
 #include "ros/replay/latency_meter.h"
 #include "ros/runtime/checkpoint_keeper.h"
 #include "ros/runtime/core_nodelet.h"
 #include "ros/runtime/health_report.h"
 #include "ros/runtime/internal_topics.h"
-#include "ros/runtime/sensor_watch.h"
 #include "slipnav/core/ekf/engine/filter_engine.h"
 #include "slipnav/core/navigation/health.h"
 
@@ -43,11 +38,7 @@ namespace slipnav {
 
 namespace {
 
-/// How often the state is handed over, in time of the stamps.
-constexpr Nanoseconds kHandOverInterval = kSecond;
-/// [s] without a usable wheel sample, or more where `filter.max_wheel_interval_s` says so.
-constexpr double kSilence_s = 0.5;
-/// [s] without a step of the mechanisation.
+/// [s] without a step of the mechanization.
 constexpr double kStepSilence_s = 1.0;
 
 }  // namespace
@@ -59,14 +50,12 @@ class FilterNodelet : public CoreNodelet {
  private:
   void begin(const Config& config) override {
     engine_.emplace(Planet::byName(config.planet), config.navigation().filter);
-    wheel_input_.emplace(config);
+    wheels_.emplace(config, [this](const WheelMotion& wheels) { useWheels(wheels); });
     checkpoints_.emplace(config.checkpoint);
     health_.emplace(config.navigation().filter);
-    wheels_watch_.emplace("wheels", std::max(kSilence_s, config.filter.max_wheel_interval_s));
     const bool uses_wheels = !config.filter.updates.empty();
     gate_ = StepGate(uses_wheels ? std::optional<double>(config.filter.max_wait_s) : std::nullopt, patience());
     fix_input_.emplace(config);
-    fix_wait_ = fromSeconds(config.gnss.max_wait_s);
     look_ahead_ = LookAhead(config.filter.max_wait_s);
     lever_imu_to_base_b_ = -config.imu.mount.position_b();
   }
@@ -89,7 +78,7 @@ class FilterNodelet : public CoreNodelet {
 
   void advertise(const Config& config) override {
     estimates_ = std::make_unique<EstimatePublisher>(node(), config);
-    hand_over_publisher_ = publisher<StartState>(kHandOverTopic, true);
+    hand_over_ = std::make_unique<HandOver>(node());
     request_publisher_ = publisher<std_msgs::UInt32>(kStartRequestTopic);
     correction_publisher_ = publisher<FilterCorrection>(kCorrectionTopic);
   }
@@ -106,26 +95,23 @@ class FilterNodelet : public CoreNodelet {
       return;
     }
     if (started_ && message->session == session_) {
-      wheel_sessions_.pause();  // a new start without a new clock
+      wheels_->pause();  // a new start without a new clock
     }
     started_ = true;
     has_steps_ = lost_ = false;
     session_ = message->session;
-    handed_over_ = 0;
     const InitialState initial = fromMessage(*message);
     gate_.restart();
     health_->restart();
     look_ahead_.restart(initial.nav.stamp);
     latency_.restart();
     engine_->reset();
-    for (const WheelMotion& wheels : wheel_sessions_.startNext()) {
-      useWheels(wheels);
-    }
+    wheels_->startNext();
     for (const PositionFix& fix : fix_input_->after(initial.nav.stamp)) {
       engine_->push(AntennaFix(fix));
     }
     engine_->initialise(initial);
-    origin_ = initial.origin;
+    hand_over_->start(*message, initial.origin);
     checkpoints_->start(initial.origin, message->session);
     estimates_->start(initial.origin, lever_imu_to_base_b_, engine_->dynamics().gyroNoiseDensity());
     const std::vector<InsSteps::ConstPtr> early = std::move(early_steps_);
@@ -135,12 +121,12 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
-  /// The estimate ends; a new start is looked for.
+  /// Ends the estimate; the search for a new start begins.
   void end() {
     started_ = has_steps_ = lost_ = false;
     engine_->reset();
-    wheel_sessions_.pause();
-    handOver(boost::make_shared<StartState>());
+    wheels_->pause();
+    hand_over_->end(start_);
   }
 
   void onSteps(const InsSteps::ConstPtr& message) {
@@ -176,10 +162,10 @@ class FilterNodelet : public CoreNodelet {
 
   static bool isBeginning(const InsSteps& steps) { return steps.epoch == 0 && steps.steps.front().sequence == 0; }
 
-  /// This nodelet was loaded anew: the steps from the initial state on are gone.
+  /// This nodelet was reloaded: the steps from the initial state on are gone.
   void requestStart() {
     if (!lost_) {
-      NODELET_WARN("the mechanisation is ahead of this filter, which asks for a new start");
+      NODELET_WARN("the mechanization is ahead of this filter, which requests a new start");
     }
     lost_ = true;
     const auto message = boost::make_shared<std_msgs::UInt32>();
@@ -187,12 +173,12 @@ class FilterNodelet : public CoreNodelet {
     request_publisher_.publish(message);
   }
 
-  /// The mechanisation was loaded anew: its first steps are void, and it goes on from the filter's state.
+  /// The mechanization was reloaded: its first steps are void, and it resumes from the filter's state.
   void restartMechanisation() {
-    NODELET_WARN("the mechanisation begins anew");
+    NODELET_WARN("the mechanization restarts");
     gate_.clear();
     look_ahead_.forgetSteps();
-    wheel_time_.recount();
+    wheels_->recount();
     if (const std::optional<Correction> correction = engine_->reissue()) {
       tell(correction);
     }
@@ -200,56 +186,44 @@ class FilterNodelet : public CoreNodelet {
 
   template <class Message>
   void onWheels(const boost::shared_ptr<const Message>& message) {
-    ++wheel_messages_;
-    const std::optional<WheelMotion> motion = wheel_input_->take(*message);
-    wheel_problem_ = wheel_input_->problem();
-    if (!wheel_problem_.empty()) {
+    const std::optional<WheelMotion> motion = wheels_->read(*message, clocks());
+    const std::string& problem = wheels_->problem();
+    if (!problem.empty()) {
       ++rejected_;
-      wheels_watch_->refused(wheel_problem_, clocks());
-      health_->note(wheel_input_->problem(), engine_->state().stamp);
-      NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s left out: %s", message->header.stamp.toSec(),
-                            wheel_problem_.c_str());
+      health_->note(problem, engine_->state().stamp);
+      NODELET_WARN_THROTTLE(1.0, "wheel message at %.3f s rejected: %s", message->header.stamp.toSec(),
+                            problem.c_str());
     }
-    if (!wheel_input_->remark().empty()) {
-      health_->note(wheel_input_->remark(), engine_->state().stamp);
-      NODELET_WARN("%s", wheel_input_->remark().c_str());
+    if (!wheels_->remark().empty()) {
+      health_->note(wheels_->remark(), engine_->state().stamp);
+      NODELET_WARN("%s", wheels_->remark().c_str());
     }
     if (motion) {
-      wheels_watch_->used(clocks());
-      jumps_.push(*motion, [this](const WheelMotion& passed) { sortWheels(wheel_time_.push(passed)); });
+      wheels_->push(*motion);
       proceed();
     }
   }
 
   /// The clock may have been set back before these steps.
   void learnTime(const ContinuousTime& time) {
-    if (time.steps().size() != wheel_time_.time().steps().size()) {
-      sortWheels(wheel_time_.learn(time));
+    if (wheels_->learn(time)) {
       checkpoints_->setTime(time);
     }
   }
 
-  void sortWheels(const std::vector<WheelMotion>& samples) {
-    for (const WheelMotion& sample : samples) {
-      for (const WheelMotion& wheels : wheel_sessions_.push(sample)) {
-        useWheels(wheels);
-      }
-    }
-  }
-
   void publish(const Estimate& estimate, const ErrorCovariance& P) {
-    if (wheel_time_.time().steps().empty()) {
+    if (wheels_->time().steps().empty()) {
       estimates_->publish(estimate, P);
       return;
     }
     Estimate by_clock = estimate;
-    by_clock.nav.stamp = wheel_time_.time().toClock(estimate.nav.stamp);
-    by_clock.wheels.stamp = wheel_time_.time().toClock(estimate.wheels.stamp);
+    by_clock.nav.stamp = wheels_->time().toClock(estimate.nav.stamp);
+    by_clock.wheels.stamp = wheels_->time().toClock(estimate.wheels.stamp);
     estimates_->publish(by_clock, P);
   }
 
   void onFix(const sensor_msgs::NavSatFix::ConstPtr& message) {
-    const std::vector<PositionFix> fixes = fix_input_->take(*message, wheel_time_.time());
+    const std::vector<PositionFix> fixes = fix_input_->take(*message, wheels_->time());
     if (!fix_input_->problem().empty()) {
       health_->note(fix_input_->problem(), engine_->state().stamp);
       NODELET_WARN_THROTTLE(10.0, "%s", fix_input_->problem().c_str());
@@ -260,13 +234,6 @@ class FilterNodelet : public CoreNodelet {
       }
     }
     proceed();
-  }
-
-  /// Of the IMU, from which on the filter does not wait for fixes any more.
-  Nanoseconds fixesDecidedAt() const {
-    const Nanoseconds known = engine_->fixesKnownUntil();
-    const Nanoseconds never = std::numeric_limits<Nanoseconds>::max();
-    return known == never ? never : known + fix_wait_;
   }
 
   void useWheels(const WheelMotion& wheels) {
@@ -282,18 +249,19 @@ class FilterNodelet : public CoreNodelet {
   double tickInterval_s() const override { return 0.5 * kPatience_s; }
   void onTick() override { proceed(); }
 
-  /// Works off what has become certain, and tells the mechanisation.
+  /// Processes what has become certain, and informs the mechanization.
   void proceed() {
-    if (!has_steps_) {  // the mechanisation may be loaded later
+    if (!has_steps_) {  // the mechanization may be loaded later
       return;
     }
     gate_.release(
-        engine_->wheelsKnownUntil(), now(), [this](const InsStep& step) { engine_->push(step); }, fixesDecidedAt());
+        engine_->wheelsKnownUntil(), now(), [this](const InsStep& step) { engine_->push(step); },
+        fix_input_->decidedAt(engine_->fixesKnownUntil()));
     const std::optional<Correction> correction =
         engine_->advance([this](const Estimate& estimate, const ErrorCovariance& P) {
           look_ahead_.processed(estimate.nav.stamp);
           checkpoints_->offer(*engine_);
-          handOverIfDue(estimate.nav.stamp);
+          hand_over_->offer(*engine_);
           publish(estimate, P);
           latency_.published(estimate.nav.stamp, now());
         });
@@ -303,24 +271,6 @@ class FilterNodelet : public CoreNodelet {
     } else if (look_ahead_.isStalled()) {
       tell(std::nullopt);
     }
-  }
-
-  void handOverIfDue(Nanoseconds stamp) {
-    if (stamp - handed_over_ < kHandOverInterval) {
-      return;
-    }
-    handed_over_ = stamp;
-    InitialState state = engine_->snapshot();
-    state.origin = origin_;
-    const auto message = boost::make_shared<StartState>();
-    fill(state, *message);
-    handOver(message);
-  }
-
-  void handOver(const boost::shared_ptr<StartState>& message) {
-    message->start = start_;
-    message->session = session_;
-    hand_over_publisher_.publish(message);
   }
 
   void takeCorrection(const Correction& correction) {
@@ -349,7 +299,7 @@ class FilterNodelet : public CoreNodelet {
       throw std::invalid_argument("there is no estimate yet");
     }
     takeCorrection(engine_->place(toPlacement(request, estimates_->frame(), engine_->state(), lever_imu_to_base_b_)));
-    response.message = "the estimate is put there";
+    response.message = "the estimate was moved";
   }
 
   void saveCheckpoint(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -359,19 +309,20 @@ class FilterNodelet : public CoreNodelet {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
-    status.summary(has_steps_ && wheel_messages_ > 0 ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
-                   !started_             ? "waiting for the initial state"
-                   : lost_               ? "loaded anew, waiting for a new start"
-                   : !has_steps_         ? "waiting for the mechanisation"
-                   : wheel_messages_ > 0 ? "running"
-                                         : "no wheel samples");
-    diagnoseInputs(status);
-    status.add("wheel messages", wheel_messages_);
-    status.add("rejected wheel messages", rejected_);
-    status.add("wheel messages with a wrong stamp", jumps_.leftOut());
+    const bool has_wheels = wheels_ && wheels_->messages() > 0;
+    status.summary(has_steps_ && has_wheels ? DiagnosticStatus::OK : DiagnosticStatus::WARN,
+                   !started_     ? "waiting for the initial state"
+                   : lost_       ? "reloaded, waiting for a new start"
+                   : !has_steps_ ? "waiting for the mechanization"
+                   : has_wheels  ? "running"
+                                 : "no wheel samples");
     if (!engine_) {
       return;
     }
+    diagnoseInputs(status);
+    status.add("wheel messages", wheels_->messages());
+    status.add("rejected wheel messages", rejected_);
+    status.add("wheel messages with a wrong stamp", wheels_->leftOut());
     latency_.report(status);
     checkpoints_->diagnose(status);
     alarms_.add(*health_, now(), status);
@@ -384,24 +335,23 @@ class FilterNodelet : public CoreNodelet {
     }
   }
 
-  /// The worst first. Where steps are missing the cause stands in the status of Ins, and nothing here is of now.
+  /// Worst first. If steps are missing the cause is in the status of Ins, and nothing here is current.
   void diagnoseInputs(diagnostic_updater::DiagnosticStatusWrapper& status) const {
     using diagnostic_msgs::DiagnosticStatus;
-    const std::string failure = wheels_watch_ ? wheels_watch_->problem(wheel_input_->topic(), clocks()) : "";
+    const std::string failure = wheels_->failure(clocks());
     if (!failure.empty()) {
       status.summary(DiagnosticStatus::ERROR, failure);
-    } else if (!wheel_problem_.empty()) {
-      status.mergeSummary(DiagnosticStatus::WARN, "wheel message left out: " + wheel_problem_);
+    } else if (!wheels_->problem().empty()) {
+      status.mergeSummary(DiagnosticStatus::WARN, "wheel message rejected: " + wheels_->problem());
     } else if (has_steps_ && steps_watch_.isSilent(clocks())) {
-      status.summary(DiagnosticStatus::STALE, "the mechanisation is silent");
+      status.summary(DiagnosticStatus::STALE, "the mechanization is silent");
     }
   }
 
   std::optional<FilterEngine> engine_;
-  std::optional<SensorWatch> wheels_watch_;
   SilenceWatch steps_watch_{kStepSilence_s};
   HealthReport alarms_;
-  std::optional<WheelInput> wheel_input_;
+  std::optional<FilterWheels> wheels_;
   std::optional<CheckpointKeeper> checkpoints_;
   std::optional<HealthMonitor> health_;
   std::unique_ptr<EstimatePublisher> estimates_;
@@ -409,11 +359,7 @@ class FilterNodelet : public CoreNodelet {
   StepGate gate_{std::nullopt};
   LookAhead look_ahead_{0.0};
   LatencyMeter latency_;
-  JumpFilter<WheelMotion> jumps_;
-  ContinuousWheels wheel_time_;
-  WheelSessions wheel_sessions_;
   std::optional<FixInput> fix_input_;
-  Nanoseconds fix_wait_ = 0;
   std::vector<InsSteps::ConstPtr> early_steps_;
   bool started_ = false;
   bool has_steps_ = false;     ///< since the start
@@ -421,12 +367,8 @@ class FilterNodelet : public CoreNodelet {
   Nanoseconds first_end_ = 0;  ///< of the first step since the start
   std::uint32_t start_ = 0;    ///< count of the initial state in use
   std::uint32_t session_ = 0;  ///< of that state
-  Geodetic origin_;            ///< likewise
-  Nanoseconds handed_over_ = 0;
-  std::uint64_t wheel_messages_ = 0;
   std::uint64_t rejected_ = 0;
-  std::string wheel_problem_;  ///< of the newest wheel message
-  SharedPublisher<StartState> hand_over_publisher_;
+  std::unique_ptr<HandOver> hand_over_;
   SharedPublisher<std_msgs::UInt32> request_publisher_;
   SharedPublisher<FilterCorrection> correction_publisher_;
 };

@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-#include "core/forecast/forecaster.h"
+#include "core/forecast/forecast_method.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/forecast_messages.h"
 #include "ros/messages/internal_messages.h"
@@ -23,7 +23,7 @@ namespace slipnav {
 
 namespace {
 
-/// [s] by stamps that something has to last before it is a warning: windows are filled, and fits fail, now and then.
+/// [s] by stamps that a problem must last before it is a warning: filling windows and failing fits are normal.
 constexpr double kTrouble_s = 5.0;
 /// [s] without an estimate.
 constexpr double kSilence_s = 2.0;
@@ -86,7 +86,7 @@ class ForecastNodelet : public CoreNodelet {
     error_publisher_.publish(error);
   }
 
-  /// Of the newest forecast, "" for none. Single ones are normal.
+  /// Problem of the newest forecast, otherwise "". Single ones are normal.
   std::string troubleOf() const {
     if (!forecaster_->problem().empty()) {
       return "no forecast: " + forecaster_->problem();
@@ -101,7 +101,7 @@ class ForecastNodelet : public CoreNodelet {
     const std::string trouble = newest_ == 0 ? "" : troubleOf();
     const bool lasts = !trouble.empty() && toSeconds(newest_ - fine_until_) > kTrouble_s;
     if (inputs_watch_.isSilent(clocks())) {
-      status.summary(DiagnosticStatus::STALE, "no estimates any more");
+      status.summary(DiagnosticStatus::STALE, "estimates have stopped");
     } else if (newest_ == 0) {
       status.summary(DiagnosticStatus::OK, "waiting for estimates");
     } else if (lasts) {
@@ -114,7 +114,7 @@ class ForecastNodelet : public CoreNodelet {
     status.addf("computation [ms]", "%.1f", computation_ms_);
     status.addf("time to stop [s]", "%.1f", time_to_stop_s_);
     status.add("slip samples", fit_.samples);
-    status.add("slip samples left out", fit_.left_out);
+    status.add("slip samples dropped", fit_.left_out);
     status.addf("log marginal likelihood", "%.2f", fit_.log_marginal_likelihood);
     for (const auto& [name, value] : fit_.hyperparameters) {
       status.addf(name, "%.4g", value);
@@ -123,7 +123,7 @@ class ForecastNodelet : public CoreNodelet {
 
   FrameNames frames_;
   std::string model_;
-  std::optional<Forecaster> forecaster_;
+  std::optional<ForecastMethod> forecaster_;
   SlipFit fit_;
   double time_to_stop_s_ = 0.0;
   double computation_ms_ = 0.0;

@@ -2,20 +2,19 @@
 ///
 /// In: imu/data, joint_states or wheel_odometry, gps/fix, gps/velocity; hand_over, start_request. Out, latched:
 /// initial_state, initialization, TF map → odom.
-/// Services: initialise, reset.
+/// Services: `initialise`, reset.
 
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <sensor_msgs/Imu.h>
-#include <slipnav/Initialization.h>
 #include <slipnav/StartState.h>
 #include <std_msgs/UInt32.h>
 #include <std_srvs/Trigger.h>
-#include <tf2_ros/static_transform_broadcaster.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -28,11 +27,11 @@
 #include "ros/messages/conversions.h"
 #include "ros/messages/imu_input.h"
 #include "ros/messages/internal_messages.h"
+#include "ros/messages/start_reporter.h"
 #include "ros/messages/wheel_input.h"
 #include "ros/runtime/core_nodelet.h"
 #include "ros/runtime/health_report.h"
 #include "ros/runtime/internal_topics.h"
-#include "slipnav/core/base/rotation.h"
 #include "slipnav/core/navigation/initializer.h"
 #include "slipnav/core/ordering/imu_clock.h"
 
@@ -48,7 +47,6 @@ class InitializerNodelet : public CoreNodelet {
       throw std::invalid_argument("initialization.source: truth is for the evaluator only");
     }
     const NavigationSetup setup = config.navigation();
-    frames_ = config.frames;
     imu_input_.emplace(config);
     inputs_.emplace(config.navigation().filter);
     fix_topic_ = config.topics.gps_fix;
@@ -69,7 +67,7 @@ class InitializerNodelet : public CoreNodelet {
   std::string usualThread() const override { return kNavigationThread; }
 
   void subscribe(const Config& config) override {
-    listen<StartState>(kHandOverTopic, &InitializerNodelet::onHandOver);  // first: it says whether to start at all
+    listen<StartState>(kHandOverTopic, &InitializerNodelet::onHandOver);  // first: it decides whether to start at all
     listen<std_msgs::UInt32>(kStartRequestTopic, &InitializerNodelet::onStartRequest);
     listen<sensor_msgs::Imu>(config.topics.imu, &InitializerNodelet::onImu);
     listen<sensor_msgs::JointState>(config.topics.joint_states, &InitializerNodelet::onWheels<sensor_msgs::JointState>);
@@ -80,8 +78,8 @@ class InitializerNodelet : public CoreNodelet {
     serve("reset", &InitializerNodelet::reset);
   }
 
-  void advertise(const Config&) override {
-    progress_publisher_ = publisher<Initialization>(kInitializationTopic, true);
+  void advertise(const Config& config) override {
+    reporter_ = std::make_unique<StartReporter>(node(), config.frames);
     start_publisher_ = publisher<StartState>(kInitialStateTopic, true);
   }
 
@@ -109,7 +107,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Loaded beside an estimate that is running: there is nothing to look for, unless it is of before the clock went
+  /// Loaded while an estimate is running: there is nothing to search for, unless it is from before the clock went
   /// back.
   void takeOver(Nanoseconds stamp) {
     if (stamp == 0) {
@@ -124,10 +122,10 @@ class InitializerNodelet : public CoreNodelet {
     done_ = true;
     const InitialState state = fromMessage(*running);
     resumption_->offer(state);
-    publishStart(state, running, "went on with the estimate that was running");
+    publishStart(state, running, "continued with the running estimate");
   }
 
-  /// The filter was loaded anew.
+  /// The filter was reloaded.
   void onStartRequest(const std_msgs::UInt32::ConstPtr& message) {
     if (!done_ || message->data != start_) {
       return;
@@ -140,7 +138,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Goes on from where an estimate ended, if that is known and good for it.
+  /// Resumes from where an estimate ended, if that is known and usable.
   void resume(Nanoseconds stamp) {
     if (done_ || stamp == 0 || !resumption_->isPossible()) {
       return;
@@ -149,7 +147,7 @@ class InitializerNodelet : public CoreNodelet {
       const InitialState initial = resumption_->resume(stamp);
       done_ = true;
       const double unwatched_s = std::round(10.0 * resumption_->unwatched()) / 10.0;
-      announce(initial, "resumed " + formatNumber(unwatched_s) + " s after the last state known");
+      announce(initial, "resumed " + formatNumber(unwatched_s) + " s after the last known state");
     } catch (const std::invalid_argument& error) {
       NODELET_WARN("a new start: %s", error.what());
     }
@@ -167,7 +165,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Of a message that was left out; a start may be waiting for nothing else.
+  /// About a rejected message; the start may be waiting for nothing else.
   void noteProblem(const std::string& problem) {
     if (!problem.empty()) {
       inputs_->note(problem, fromSeconds(now()));
@@ -197,7 +195,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Clocks that do not agree are nobody's to correct, but worth a word.
+  /// Clocks that disagree cannot be corrected here, but are worth reporting.
   void watch(const std::string& topic, Nanoseconds stamp) {
     const std::string problem = stamps_->note(topic, stamp);
     noteProblem(problem);
@@ -262,7 +260,7 @@ class InitializerNodelet : public CoreNodelet {
     }
   }
 
-  /// Ends the estimate and looks for a start anew.
+  /// Ends the estimate and searches for a new start.
   void searchAnew() {
     initializer_->reset();
     resumption_->forget();
@@ -273,13 +271,13 @@ class InitializerNodelet : public CoreNodelet {
 
   void initialise(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
     searchAnew();
-    response.message = progress_;
+    response.message = reporter_->progress();
   }
 
   void reset(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
     resumption_->deleteFiles();
     searchAnew();
-    response.message = progress_;
+    response.message = reporter_->progress();
   }
 
   boost::shared_ptr<StartState> nextStart() {
@@ -297,56 +295,21 @@ class InitializerNodelet : public CoreNodelet {
     publishStart(initial, message, how);
   }
 
-  void sendMapToOdom(const ros::Time& stamp) {
-    geometry_msgs::TransformStamped map_to_odom;
-    map_to_odom.header.stamp = stamp;
-    map_to_odom.header.frame_id = frames_.map;
-    map_to_odom.child_frame_id = frames_.odom;
-    map_to_odom.transform.rotation.w = 1.0;
-    tf_.sendTransform(map_to_odom);
-  }
-
   void publishStart(const InitialState& initial, const StartState::ConstPtr& message, const std::string& how) {
     start_publisher_.publish(message);
-    if (frames_.publish_tf) {
-      sendMapToOdom(message->state.stamp);
-    }
-    reportEnd(initial, how);
-  }
-
-  void reportEnd(const InitialState& initial, const std::string& how) {
-    const auto report = boost::make_shared<Initialization>();
-    report->header.stamp = toRosTime(initial.nav.stamp);
-    report->header.frame_id = frames_.map;
-    report->done = true;
-    report->progress = progress_ = how;
-    report->latitude_deg = radToDeg(initial.origin.latitude_rad);
-    report->longitude_deg = radToDeg(initial.origin.longitude_rad);
-    report->height_m = initial.origin.height_m;
-    report->heading_deg = radToDeg(eulerFrom_q_b_to_n(initial.nav.q_b_to_n).z());
-    report->heading_std_deg = radToDeg(std::sqrt(initial.P(kAttitude + 2, kAttitude + 2)));
-    progress_publisher_.publish(report);
-    NODELET_INFO("initialisation at %.3f s: %s; origin %.7f deg, %.7f deg, %.2f m, heading %.2f deg (1 sigma %.2f deg)",
-                 report->header.stamp.toSec(), how.c_str(), report->latitude_deg, report->longitude_deg,
-                 report->height_m, report->heading_deg, report->heading_std_deg);
+    NODELET_INFO("%s", reporter_->end(initial, how).c_str());
   }
 
   void reportProgress() {
-    if (done_ || initializer_->progress() == progress_) {
-      return;
+    const std::string line = done_ ? "" : reporter_->search(initializer_->progress(), screen_->newestStamp());
+    if (!line.empty()) {
+      NODELET_INFO("%s", line.c_str());
     }
-    progress_ = initializer_->progress();
-    const auto report = boost::make_shared<Initialization>();
-    report->header.stamp = toRosTime(screen_->newestStamp());
-    report->header.frame_id = frames_.map;
-    report->progress = progress_;
-    progress_publisher_.publish(report);
-    NODELET_INFO("initialisation: %s", progress_.c_str());
   }
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
-    status.summary(done_ ? DiagnosticStatus::OK : DiagnosticStatus::WARN, progress_);
+    status.summary(done_ ? DiagnosticStatus::OK : DiagnosticStatus::WARN, reporter_ ? reporter_->progress() : "");
     if (initializer_ && !initializer_->complaint().empty()) {
       status.summary(DiagnosticStatus::ERROR, initializer_->complaint());
     }
@@ -358,10 +321,9 @@ class InitializerNodelet : public CoreNodelet {
     status.add("samples with a wrong stamp", merger_ ? merger_->leftOut() : 0);
   }
 
-  FrameNames frames_;
   std::optional<ImuInput> imu_input_;
   HealthReport alarms_;
-  std::optional<HealthMonitor> inputs_;  ///< what was wrong with messages, in real time
+  std::optional<HealthMonitor> inputs_;  ///< problems with messages, in real time
   std::string fix_topic_;
   Nanoseconds fix_stamp_offset_ = 0;
   std::optional<WheelInput> wheel_input_;
@@ -372,17 +334,15 @@ class InitializerNodelet : public CoreNodelet {
   std::optional<Resumption> resumption_;
   TrustedStamp trusted_;
   std::optional<StampWatch> stamps_;
-  StartState::ConstPtr running_;  ///< of the estimate that was there before this nodelet
-  std::uint32_t session_ = 0;     ///< restarts of the IMU's clock
-  std::uint32_t starts_ = 0;      ///< initial states announced, and searches begun anew
+  StartState::ConstPtr running_;  ///< of the estimate that was running before this nodelet
+  std::uint32_t session_ = 0;     ///< restarts of the IMU clock
+  std::uint32_t starts_ = 0;      ///< initial states announced, and searches restarted
   std::uint32_t start_ = 0;       ///< count of the newest of them
-  /// Counts begin here: beyond those of an initialiser that was unloaded before.
+  /// Counts start here: beyond those of a previously unloaded initializer.
   const std::uint32_t first_start_ = static_cast<std::uint32_t>(now());
   bool done_ = false;
-  std::string progress_;
-  tf2_ros::StaticTransformBroadcaster tf_;
   SharedPublisher<StartState> start_publisher_;
-  SharedPublisher<Initialization> progress_publisher_;
+  std::unique_ptr<StartReporter> reporter_;
 };
 
 }  // namespace slipnav

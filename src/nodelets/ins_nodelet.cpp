@@ -1,4 +1,4 @@
-/// slipnav/Ins: mechanises IMU samples.
+/// slipnav/Ins: mechanizes IMU samples.
 ///
 /// In: imu/data, initial_state, correction. Out: ins_steps.
 
@@ -30,9 +30,9 @@ namespace slipnav {
 
 namespace {
 
-/// [s] of real time after which what the filter has not answered is said again: it may have been loaded only now.
+/// [s] of real time after which unanswered messages to the filter are repeated: it may have been loaded only now.
 constexpr double kRepeatInterval_s = 0.5;
-/// [s] of real time after which an initial state of a session that never began here is believed to be of the present
+/// [s] of real time after which an initial state of a session that never started here is assumed to be of the present
 /// one: this nodelet may have been loaded in the middle of it.
 constexpr double kSessionPatience_s = 2.0;
 /// [s] without a usable sample, of an IMU of 20 Hz or more.
@@ -98,7 +98,7 @@ class InsNodelet : public CoreNodelet {
     ImuVerdict verdict = engine_->push(sample);
     health_->noteImu(sample.stamp, verdict);
     if (verdict == ImuVerdict::kTimeWentBack) {
-      NODELET_WARN("the clock of the IMU has begun again: a new start");
+      NODELET_WARN("the clock of the IMU has restarted: a new start");
       engine_->reset();
       ++session_;
       verdict = engine_->push(sample);
@@ -110,7 +110,7 @@ class InsNodelet : public CoreNodelet {
     } else {
       ++rejected_;
       watch_.refused(complaintOf(verdict), clocks());
-      NODELET_WARN_THROTTLE(1.0, "IMU sample at %.3f s left out: %s", toSeconds(sample.stamp), complaintOf(verdict));
+      NODELET_WARN_THROTTLE(1.0, "IMU sample at %.3f s rejected: %s", toSeconds(sample.stamp), complaintOf(verdict));
     }
   }
 
@@ -128,7 +128,7 @@ class InsNodelet : public CoreNodelet {
     mechanise();
   }
 
-  /// An initial state belongs to the session that counts as many restarts of the clock, and is used once the samples
+  /// An initial state belongs to the session with the same count of clock restarts, and is used once the samples
   /// have reached it.
   void startIfDue() {
     if (!start_ || !isOfThisSession(*start_) || engine_->newestStamp() < toNanoseconds(start_->state.stamp)) {
@@ -158,7 +158,7 @@ class InsNodelet : public CoreNodelet {
     if (message->corrects) {
       const Correction correction = fromMessage(*message);
       if (!engine_->correct(correction)) {
-        NODELET_WARN("going on from the filter's state at %.3f s", toSeconds(correction.state.stamp));
+        NODELET_WARN("resuming from the filter's state at %.3f s", toSeconds(correction.state.stamp));
         engine_->adopt(correction);
       }
       last_step_ = toNanoseconds(message->state.stamp);
@@ -167,7 +167,7 @@ class InsNodelet : public CoreNodelet {
     mechanise();
   }
 
-  /// Mechanises what the filter has use for; the rest waits in the engine, so that a correction costs little.
+  /// Mechanizes what the filter needs; the rest waits in the engine, so that a correction costs little.
   void mechanise() {
     const boost::shared_ptr<InsSteps> batch = boost::make_shared<InsSteps>();
     while (last_step_ < run_until_) {
@@ -205,7 +205,7 @@ class InsNodelet : public CoreNodelet {
     const double span_s = engine_ ? toSeconds(engine_->newestStamp() - diagnosed_stamp_) : 0.0;
     const double rate_hz = span_s > 0.0 ? static_cast<double>(samples_ - diagnosed_samples_) / span_s : 0.0;
     const bool running = engine_ && engine_->isInitialised();
-    status.summary(running ? DiagnosticStatus::OK : DiagnosticStatus::WARN, running ? "mechanising"
+    status.summary(running ? DiagnosticStatus::OK : DiagnosticStatus::WARN, running ? "mechanizing"
                                                                             : samples_ > 0
                                                                                 ? "waiting for the initial state"
                                                                                 : "no IMU samples");
@@ -218,7 +218,7 @@ class InsNodelet : public CoreNodelet {
     status.add("gaps", gaps_);
     status.add("rejected samples", rejected_);
     status.add("samples with a wrong stamp", jumps_.leftOut());
-    status.add("samples put back into order", sorter_.overtaken());
+    status.add("samples put back in order", sorter_.overtaken());
     status.add("restarts", session_);
     if (health_) {
       alarms_.add(*health_, now(), status);
@@ -227,10 +227,10 @@ class InsNodelet : public CoreNodelet {
     diagnosed_stamp_ = engine_ ? engine_->newestStamp() : 0;
   }
 
-  /// With this there is nothing to navigate by.
+  /// A failure that makes navigation impossible.
   std::string failureOfImu() const {
     const std::string problem = watch_.problem(imu_topic_, clocks());
-    return problem.empty() && engine_ && engine_->isImuFrozen() ? "the IMU repeats the very same values" : problem;
+    return problem.empty() && engine_ && engine_->isImuFrozen() ? "the IMU repeats exactly the same values" : problem;
   }
 
   std::optional<ImuInput> imu_input_;
@@ -246,14 +246,14 @@ class InsNodelet : public CoreNodelet {
   std::optional<HealthMonitor> health_;
   StartState::ConstPtr start_;  ///< not yet used
   double start_came_s_ = 0.0;
-  std::uint32_t newest_start_ = 0;  ///< count of the newest initial state that came
-  std::uint32_t session_ = 0;       ///< restarts of the IMU's clock
+  std::uint32_t newest_start_ = 0;  ///< count of the newest received initial state
+  std::uint32_t session_ = 0;       ///< restarts of the IMU clock
   std::uint32_t start_count_ = 0;   ///< of the initial state in use
   InsSteps::ConstPtr unanswered_;   ///< the newest steps, until the filter answers
   double published_s_ = 0.0;
   std::uint64_t published_at_ = 0;  ///< count of samples
   Nanoseconds last_step_ = 0;       ///< end of the newest step
-  Nanoseconds run_until_ = 0;       ///< what the filter has use for
+  Nanoseconds run_until_ = 0;       ///< limit of what the filter needs
   std::uint64_t samples_ = 0;
   std::uint64_t gaps_ = 0;
   std::uint64_t rejected_ = 0;

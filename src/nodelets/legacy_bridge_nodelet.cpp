@@ -1,4 +1,4 @@
-/// slipnav/LegacyBridge: says what the core_nav node of the paper's own software would say, to those who listen to it.
+/// slipnav/LegacyBridge: publishes what the core_nav node of the paper's software would, for its subscribers.
 ///
 /// In: nav_state, slip. Out: core_nav/core_nav/{position, llh, ecef, enu, velocity, attitude, cn_odom, slip}.
 
@@ -78,7 +78,7 @@ class LegacyBridgeNodelet : public CoreNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
     const bool silent = watch_.isSilent(clocks());
-    status.summary(silent ? DiagnosticStatus::STALE : DiagnosticStatus::OK, silent        ? "no estimates any more"
+    status.summary(silent ? DiagnosticStatus::STALE : DiagnosticStatus::OK, silent        ? "estimates have stopped"
                                                                             : states_ > 0 ? "translating"
                                                                                           : "waiting for estimates");
     status.add("estimates", states_);

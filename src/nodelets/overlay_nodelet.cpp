@@ -33,12 +33,12 @@ namespace slipnav {
 
 namespace {
 
-/// A start with the same origin, at most so long before the newest estimate [s], goes on with the same drive. After a
+/// A start with the same origin, at most this long before the newest estimate [s], continues the same drive. After a
 /// clock that has gone back it is a new one.
 constexpr double kSameDrive_s = 5.0;
-/// A transform of somebody else counts as published for so long [s] of real time.
+/// A transform from another node counts as published for this long [s] of real time.
 constexpr double kForeignTransform_s = 2.0;
-/// Without an estimate for so long [s], what is drawn of now is stale.
+/// After this long without an estimate [s], the drawing of the present is stale.
 constexpr double kSilence_s = 2.0;
 
 }  // namespace
@@ -86,7 +86,7 @@ class OverlayNodelet : public CoreNodelet {
 
   using TransformEvent = ros::MessageEvent<tf2_msgs::TFMessage const>;
 
-  /// Where the vehicle is, two nodes must not say.
+  /// Two nodes must not both publish the vehicle's pose.
   void watchTransforms(const TransformEvent& event) {
     if (event.getPublisherName() == ros::this_node::getName()) {
       return;
@@ -135,7 +135,7 @@ class OverlayNodelet : public CoreNodelet {
     sendFrame(*message);
   }
 
-  /// At the rover, but with the directions of the map: panel and legend neither turn nor rock.
+  /// At the rover, but aligned with the map: panel and legend neither turn nor rock.
   void sendFrame(const nav_msgs::Odometry& message) {
     geometry_msgs::TransformStamped transform;
     transform.header = message.header;
@@ -196,7 +196,7 @@ class OverlayNodelet : public CoreNodelet {
     }
   }
 
-  /// The topics are latched: who comes later gets the newest.
+  /// The topics are latched: late subscribers get the newest.
   void publishAll() {
     path_publisher_.publish(boost::make_shared<nav_msgs::Path>(toPath(picture_->track(), map_)));
     truth_publisher_.publish(boost::make_shared<nav_msgs::Path>(toPath(picture_->truth(), map_)));
@@ -228,7 +228,7 @@ class OverlayNodelet : public CoreNodelet {
   std::string map_;
   std::string base_;
   ros::Subscriber transforms_;
-  std::string foreign_publisher_;  ///< of a transform that is this package's
+  std::string foreign_publisher_;  ///< of a transform that belongs to this package
   double foreign_transform_s_ = 0.0;
   std::optional<Planet> planet_;
   std::optional<ImuInput> imu_input_;
@@ -237,7 +237,7 @@ class OverlayNodelet : public CoreNodelet {
   std::optional<OverlayMarkers> markers_;
   OverlayMessages messages_;
   SilenceWatch estimates_watch_{kSilence_s};
-  Initialization::ConstPtr drive_;  ///< where the present drive began
+  Initialization::ConstPtr drive_;  ///< where the present drive started
   ModelJoints joints_;
   tf2_ros::TransformBroadcaster tf_;
   double published_at_s_ = 0.0;

@@ -1,5 +1,5 @@
-/// slipnav/SimulatedRover: a rover that is not there, for operators who want to drive. In real time, by the clock of
-/// ROS; what it is told last it does for a second, as bases do. To the nodelets it is a rover like any other.
+/// slipnav/SimulatedRover: a virtual rover for operators to drive. In real time, by the ROS
+/// clock; like real bases, it executes its last command for one second. To the nodelets it is a rover like any other.
 ///
 /// In: cmd_vel. Out: imu/data, joint_states, gps/fix, truth/fix, truth/odometry.
 
@@ -19,9 +19,9 @@ namespace slipnav {
 
 namespace {
 
-/// [s] after which a command counts no more: nobody drives.
+/// [s] after which a command expires: nobody is driving.
 constexpr double kCommandLifetime_s = 1.0;
-/// A machine that was busy for longer does not catch up with more than this [s]: the rover has stood still meanwhile.
+/// A machine that was busy for longer than this catches up no further [s]: the rover has stood still meanwhile.
 constexpr double kMostBehind_s = 1.0;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// What launch files set for the simulator beside the configuration: its private parameters.
+/// Settings of the simulator from launch files, besides the configuration: its private parameters.
 
 #include <ros/node_handle.h>
 
@@ -14,9 +14,9 @@ struct SimulationOptions {
   std::string out;           ///< folder of the results; empty: none
   std::string bag;           ///< file of the recording; empty: none
   bool report = false;       ///< plots into `out`
-  double endurance_h = 0.0;  ///< drive for so long and keep only a row for every minute; 0: to the end, keep all
-  std::string manager;       ///< of the nodelets, whose memory is watched then
-  double rate = 0.0;         ///< factor on real time; 0: as fast as it goes
+  double endurance_h = 0.0;  ///< drive for this long and keep only a row per minute; 0: to the end, keep all
+  std::string manager;       ///< nodelet manager whose memory is monitored then
+  double rate = 0.0;         ///< factor on real time; 0: as fast as possible
 
   explicit SimulationOptions(const ros::NodeHandle& node)
       : policy(node.param<std::string>("policy", "none")),

@@ -3,9 +3,9 @@
 /// Out: imu/data, joint_states, gps/fix, truth/fix, truth/odometry, cmd_vel_in, /clock. In: cmd_vel, stop,
 /// initial_state, odometry, nav_state, slip.
 ///
-/// Everybody keeps in step by stamps: an interval begins when all that the last one must lead to has come back. So the
-/// drive is that of the offline simulation, whatever the machine is busy with, and in whatever process this nodelet is;
-/// see doc/nodelets.md.
+/// All nodelets are synchronized by stamps: an interval begins once everything that must follow from the last one has
+/// come back. So the drive equals that of the offline simulation, whatever the load of the machine, and in whatever
+/// process this nodelet runs; see doc/nodelets.md.
 
 #include <geometry_msgs/Twist.h>
 #include <nav_msgs/Odometry.h>
@@ -39,11 +39,11 @@
 namespace slipnav {
 namespace {
 
-/// [s] of real time after which somebody who is waited for will not answer any more.
+/// [s] of real time after which a missing answer is given up.
 constexpr double kPatienceLimit_s = 60.0;
-/// As long as nobody answers, so much is simulated at most in one tick [s]: queues must not overflow.
+/// While nobody answers, at most this much is simulated in one tick [s]: queues must not overflow.
 constexpr double kBlindAdvance_s = 1.0;
-/// The initial state may come so much later than offline [s], beside filter.max_wait_s: sensors are waited for.
+/// The initial state may come this much later than offline [s], besides filter.max_wait_s: sensors are waited for.
 constexpr double kStartLag_s = 1.0;
 
 }  // namespace
@@ -135,7 +135,7 @@ class SimulatorNodelet : public CoreNodelet {
     return before_s > 0.0 ? tick_s_ - before_s : 0.0;
   }
 
-  /// Each nodelet announces its own topics when it has subscribed to everything else.
+  /// Each nodelet advertises its own topics after it has subscribed to everything else.
   void lookForNodelets() {
     std::set<std::string> missing;
     for (const std::string& topic : expectedTopics()) {
@@ -153,7 +153,7 @@ class SimulatorNodelet : public CoreNodelet {
     }
   }
 
-  /// To another process that takes a moment, and what is published before is lost.
+  /// Connecting to another process takes a moment, and anything published before is lost.
   bool isConnectedToNodelets() const {
     return isConnected() && sensors_->areHeard() &&
            (!supervisorIsWired(config_) || command_publisher_.hasSubscribers());
@@ -180,7 +180,7 @@ class SimulatorNodelet : public CoreNodelet {
     }
   }
 
-  /// @return false when something has to come first
+  /// @return false if something else must come first
   bool goOn() {
     switch (waiting_) {
       case Waiting::kForTime:
@@ -204,7 +204,7 @@ class SimulatorNodelet : public CoreNodelet {
 
   bool mayGoOn() const { return (options_->rate == 0.0 && estimatesCome()) || drive_->truth().stamp < allowed_until_; }
 
-  /// The operator commands; with a supervisor, what comes back will be executed.
+  /// The operator commands; with a supervisor, its answer will be executed.
   void command() {
     const DriveMoment moment = drive_->moment();
     const VelocityCommand wanted = operator_->command(drive_->operatorCommand(), moment);
@@ -300,7 +300,7 @@ class SimulatorNodelet : public CoreNodelet {
   std::optional<SimulationOptions> options_;
   std::unique_ptr<StopPolicy> operator_;
   std::unique_ptr<SimulatedDrive> drive_;
-  /// The same samples in one thread: says how far the nodelets must come.
+  /// The same samples in one thread: shows how far the nodelets must come.
   std::optional<Pipeline> twin_;
   Nanoseconds twin_stamp_ = 0;  ///< of its newest estimate
   Nanoseconds twin_start_ = 0;  ///< when it had its first one
@@ -309,9 +309,9 @@ class SimulatorNodelet : public CoreNodelet {
   Waiting waiting_ = Waiting::kForNodelets;
   double waiting_since_s_ = now();
   std::string awaited_;
-  Nanoseconds allowed_until_ = 0;  ///< unless it is simulated as fast as it goes
+  Nanoseconds allowed_until_ = 0;  ///< unless simulated as fast as possible
   double tick_s_ = 0.0;
-  Nanoseconds newest_status_ = 0;  ///< 0: there has been no estimate so far
+  Nanoseconds newest_status_ = 0;  ///< 0: no estimate so far
   std::unique_ptr<SensorPublisher> sensors_;
   SharedPublisher<geometry_msgs::Twist> command_publisher_;
 };

@@ -24,6 +24,7 @@
 #include "core/stopping/forecast_gate.h"
 #include "core/stopping/obedience_watch.h"
 #include "core/stopping/stop_reach.h"
+#include "core/stopping/stop_verdict.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/stop_messages.h"
 #include "ros/messages/stop_outputs.h"
@@ -53,7 +54,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     supervisor_->restore(keeper_->load());
   }
 
-  /// An emergency stop that was latched must not wait for transforms.
+  /// A latched emergency stop must not wait for transforms.
   bool needsExtrinsics() const override { return false; }
 
   void subscribe(const Config& config) override {
@@ -71,7 +72,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     offerTuning("StopSupervisor");
   }
 
-  /// Between operator and rover. Once there, it stays there: commands must not run dry when the mode becomes off.
+  /// Between operator and rover. Once there, it stays: commands must not run dry when the mode becomes off.
   void stepBetween() {
     if (outputs_.hasCommands()) {
       return;
@@ -113,7 +114,7 @@ class StopSupervisorNodelet : public CoreNodelet {
   }
 
   void onForecast(const ErrorForecast::ConstPtr& message) {
-    gate_.push(StopForecast{toNanoseconds(message->header.stamp), message->time_to_stop_s});
+    gate_.push(StopForecast{toNanoseconds(message->header.stamp), message->time_to_stop_s, message->kept_s});
     proceed();
   }
 
@@ -137,7 +138,7 @@ class StopSupervisorNodelet : public CoreNodelet {
         });
   }
 
-  /// A rover that drives on must be known of at once.
+  /// A rover that keeps driving must be reported at once.
   void watchObedience(const RoverObservation& observation) {
     const bool ignored = obedience_.isIgnored();
     obedience_.observe(supervisor_->told_mps(), observation);
@@ -157,14 +158,14 @@ class StopSupervisorNodelet : public CoreNodelet {
     });
   }
 
-  /// One command in, one command out: a silent operator is never spoken for.
+  /// One command in, one command out: it never speaks for a silent operator.
   void onCommand(const geometry_msgs::Twist::ConstPtr& message) {
     commands_watch_->heard(clocks());
     watchEstimates();
     const VelocityCommand in = toVelocityCommand(*message);
     if (!in.isFinite()) {
       ++refused_commands_;
-      NODELET_WARN_THROTTLE(1.0, "a command that is not finite is refused: the rover is told to stop");
+      NODELET_WARN_THROTTLE(1.0, "a command that is not finite is rejected: the rover is told to stop");
     }
     outputs_.command(supervisor_->command(in));
   }
@@ -190,7 +191,7 @@ class StopSupervisorNodelet : public CoreNodelet {
 
   void onEmergencyStop(const std_srvs::SetBoolRequest& request, std_srvs::SetBoolResponse& response) {
     const bool wanted = request.data != 0;
-    supervisor_->setEmergencyStop(wanted);  // before the disk is waited for
+    supervisor_->setEmergencyStop(wanted);  // before waiting for the disk
     if (wanted) {
       stepBetween();
       enforceEmergencyStop();
@@ -213,7 +214,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     return loss.empty() ? answer : answer + "; not kept over a restart: " + loss;
   }
 
-  /// At once, and again and again: whoever begins to listen hears it, and a base does not go by an older command.
+  /// At once and repeatedly: new listeners hear it, and a base does not act on an older command.
   void enforceEmergencyStop() {
     outputs_.command(supervisor_->command({}));
     outputs_.lock(true);
@@ -240,7 +241,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     report();
   }
 
-  /// Without estimates, as much as both clocks say.
+  /// Without estimates, as much as both clocks agree on.
   void passTime() {
     const SilenceWatch::Now time = clocks();
     const double elapsed_s = std::min(time.ros_s - last_time_.ros_s, time.real_s - last_time_.real_s);
@@ -251,7 +252,7 @@ class StopSupervisorNodelet : public CoreNodelet {
     }
   }
 
-  /// Nothing else says that a stop has ended while there are no estimates.
+  /// Without estimates nothing else reports the end of a stop.
   void reportChange() {
     if (supervisor_->status().state != reported_) {
       report();
@@ -270,13 +271,13 @@ class StopSupervisorNodelet : public CoreNodelet {
       return;
     }
     if (status.state >= StopState::kStopping || reported_ >= StopState::kStopping) {
-      NODELET_INFO("%s: %s", name(status.state), status.reason.c_str());
+      NODELET_INFO("%s: %s", nameOf(status.state), status.reason.c_str());
     }
     reported_ = status.state;
     announce();
   }
 
-  /// For those who only want to know the seconds.
+  /// For nodes that only need the seconds.
   void announce() {
     if (const std::optional<double> seconds = supervisor_->countdown_s()) {
       outputs_.countDown(*seconds);
@@ -286,72 +287,35 @@ class StopSupervisorNodelet : public CoreNodelet {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& diagnostics) override {
     using diagnostic_msgs::DiagnosticStatus;
     const SupervisorStatus& status = supervisor_->status();
-    const std::string danger = dangerOf(status);
-    const std::string problem = problemOf(status);
-    diagnostics.summary(!danger.empty()    ? DiagnosticStatus::ERROR
-                        : !problem.empty() ? DiagnosticStatus::WARN
-                                           : DiagnosticStatus::OK,
-                        !danger.empty()    ? danger
-                        : !problem.empty() ? problem
-                                           : status.reason);
-    diagnostics.add("state", name(status.state));
+    const StopVerdict verdict = judgeStops(status, supervisor_->mode(), signs());
+    diagnostics.summary(verdict.concern == StopConcern::kDanger    ? DiagnosticStatus::ERROR
+                        : verdict.concern == StopConcern::kProblem ? DiagnosticStatus::WARN
+                                                                   : DiagnosticStatus::OK,
+                        verdict.words);
+    diagnostics.add("state", nameOf(status.state));
     diagnostics.add("stops", status.stops);
     diagnostics.add("stops given up", status.refusals);
-    diagnostics.add("refused commands", refused_commands_);
+    diagnostics.add("rejected commands", refused_commands_);
     diagnostics.add("emergency stop is kept in", keeper_->file());
   }
 
-  /// What takes an emergency stop its meaning, now or after a restart.
-  std::string dangerOf(const SupervisorStatus& status) {
-    reach_ = status.emergency_stop ? whyNoEmergencyStop(supervisor_->mode(), outputs_.listeners()) : "";
-    if (!reach_.empty()) {
-      return "emergency stop without effect: " + reach_;
-    }
-    if (obedience_.isIgnored()) {
-      return "the rover drives on although it is told to stop";
-    }
-    if (!keeper_->problem().empty()) {
-      return "emergency stop and override are not kept: " + keeper_->problem();
-    }
-    return publishersOf(topics_.nav_state) > 1 ? "more than one node publishes nav_state: " + estimators() : "";
+  StopSigns signs() {
+    reach_ = supervisor_->latch().emergency_stop ? whyNoEmergencyStop(supervisor_->mode(), outputs_.listeners()) : "";
+    StopSigns signs;
+    signs.unheard = reach_;
+    signs.ignored = obedience_.isIgnored();
+    signs.not_kept = keeper_->problem();
+    signs.rivals = publishersOf(topics_.nav_state) > 1 ? estimators() : "";
+    signs.estimates_missing = estimates_lost_ || !estimates_watch_->hasHeard();
+    signs.commands_unheard = !outputs_.hasListenersToCommands();
+    signs.commands_silent = commands_watch_->isSilent(clocks());
+    signs.forecaster_silent = gate_.forecasterIsSilent();
+    return signs;
   }
 
   std::string estimators() { return joined(endsOf(node().resolveName(topics_.nav_state)).publishers); }
 
-  std::string problemOf(const SupervisorStatus& status) const {
-    if (status.emergency_stop) {
-      return "emergency stop";
-    }
-    if (supervisor_->mode() == StopMode::kOff) {
-      return "";
-    }
-    if (estimates_lost_ || !estimates_watch_->hasHeard()) {
-      return "no estimates";
-    }
-    if (supervisor_->mode() == StopMode::kActive && !outputs_.hasListenersToCommands()) {
-      return "nobody listens to cmd_vel";
-    }
-    if (commands_watch_->isSilent(clocks())) {
-      return "cmd_vel_in is silent";
-    }
-    return status.forecasts_stale || gate_.forecasterIsSilent() ? "no forecasts: periodic stops" : "";
-  }
-
-  static const char* name(StopState state) {
-    switch (state) {
-      case StopState::kDriving:
-        return "driving";
-      case StopState::kCountingDown:
-        return "counting down";
-      case StopState::kStopping:
-        return "stopping";
-      case StopState::kHolding:
-        break;
-    }
-    return "holding";
-  }
-
-  static constexpr double kLongestTick_s = 1.0;  ///< between two ticks; more is a clock that was set
+  static constexpr double kLongestTick_s = 1.0;  ///< between two ticks; more means that a clock was set
 
   FrameNames frames_;
   TopicNames topics_;

@@ -7,10 +7,10 @@
 namespace slipnav {
 namespace {
 
-/// Way shorter than this is not counted, so that a standing rover's tremor adds nothing.
+/// Shorter distances are not counted, so that the vibration of a standing rover adds nothing.
 constexpr double kDistanceStep_m = 0.05;
 constexpr double kSigmas = 3.0;
-/// A step that is longer by so much than the speed explains is no way driven: the estimate was put elsewhere.
+/// A step that exceeds what the speed explains by this much was not driven: the estimate was moved.
 constexpr double kPlacement_m = 0.5;
 
 bool isPlacement(const EstimateSample& before, const EstimateSample& now) {
@@ -19,7 +19,7 @@ bool isPlacement(const EstimateSample& before, const EstimateSample& now) {
   return (now.position_enu_m - before.position_enu_m).norm() > driven_m + kPlacement_m;
 }
 
-/// Dead reckoning in the plane knows no height; it takes that of the estimate.
+/// Planar dead reckoning has no height; it uses that of the estimate.
 TrackPoint pointOf(const PlanarSample& pose, double height_m) {
   const Quaternion heading(Eigen::AngleAxisd(0.5 * kPi - pose.heading_rad, Vector3::UnitZ()));
   return {pose.stamp, {pose.east_m, pose.north_m, height_m}, heading, std::nullopt};

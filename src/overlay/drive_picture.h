@@ -1,5 +1,5 @@
 #pragma once
-/// All that an overlay shows of a drive, gathered from what the nodelets and the sensors say.
+/// Everything an overlay shows of a drive, collected from nodelets and sensors.
 
 #include <cstdint>
 #include <deque>
@@ -24,18 +24,18 @@ struct TrackPoint {
 
 using DisplayTrack = ThinnedTrack<TrackPoint>;
 
-/// A drive begins with start(); estimates before that are left out. When the stamps of the estimate go back by a second
+/// A drive begins with start(); earlier estimates are dropped. When the stamps of the estimate go back by a second
 /// or more, tracks and stops are cleared.
 class DrivePicture {
  public:
   DrivePicture(const OverlayParams& params, const TruthParams& truth, const Vector3& truth_lever_flu_m);
 
-  /// Forgets the drive and waits for the next start().
+  /// Discards the drive and waits for the next start().
   void clear();
   /// @param frame the map frame; @param stamp the epoch at which estimates begin
   void start(const LocalFrame& frame, Nanoseconds stamp);
 
-  /// @param estimate slip and stationary are not looked at, see addSlip()
+  /// @param estimate slip and stationary are ignored, see addSlip()
   void add(const EstimateSample& estimate);
   /// Once per wheel interval.
   void addSlip(Nanoseconds stamp, std::optional<double> slip, bool stationary);
@@ -55,7 +55,7 @@ class DrivePicture {
   double distance() const { return distance_m_; }       ///< along the estimate [m]
   double horizontalBound() const;                       ///< 3σ of the newest estimate [m], along its worst direction
   std::optional<double> horizontalError() const;        ///< against truth [m]
-  std::uint64_t revision() const { return revision_; }  ///< grows whenever something has changed
+  std::uint64_t revision() const { return revision_; }  ///< grows whenever anything has changed
 
  private:
   void clearDrive();
@@ -69,7 +69,7 @@ class DrivePicture {
   StopLog stops_;
   TruthFollower truth_follower_;
   WheelPath wheel_path_;
-  std::deque<PlanarSample> wheel_poses_;  ///< that the estimate has yet to reach
+  std::deque<PlanarSample> wheel_poses_;  ///< which the estimate has yet to reach
   CourseEstimate course_;
   std::optional<Nanoseconds> start_;
   std::optional<EstimateSample> newest_;

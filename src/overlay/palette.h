@@ -1,7 +1,7 @@
 #pragma once
-/// The colours of everything that is drawn, in rviz and in reports.
+/// The colors of everything that is drawn, in rviz and in reports.
 ///
-/// Okabe and Ito's set, which people with any of the common colour vision deficiencies can tell apart (M. Okabe, K.
+/// Okabe and Ito's set, which people with any of the common color vision deficiencies can tell apart (M. Okabe, K.
 /// Ito, "Color Universal Design", 2008), and the brown–teal scale of ColorBrewer ("BrBG") for slip of either sign.
 /// scripts/slipnav_report/palette.py and the files in rviz/ have the same values; a test compares them.
 
@@ -43,15 +43,15 @@ inline constexpr Colour kNoSlipColour = colourFromHex(0xD0D0D0);
 inline constexpr Colour kSpinningColour = colourFromHex(0x8C510A);  ///< wheels faster than the ground: slip 1
 inline constexpr Colour kSkiddingColour = colourFromHex(0x01665E);  ///< wheels slower than the ground: slip −1
 
-/// Between two colours, component by component.
+/// Between two colors, component by component.
 Colour mix(const Colour& from, const Colour& to, double fraction);
 
-/// Colour of an error bound.
+/// Color of an error bound.
 /// @param ratio of the bound to the threshold; 1 and more is the limit
 Colour boundColour(double ratio);
 
-/// Colour of a slip ratio.
-/// @param full_scale slip whose colour is the full one
+/// Color of a slip ratio.
+/// @param full_scale slip whose color is the full one
 Colour slipColour(double slip, double full_scale);
 
 }  // namespace slipnav

@@ -12,7 +12,7 @@ constexpr double kStandingSpeed_mps = 0.05;
 constexpr double kSmoothing_s = 3.0;
 constexpr double kTurnFading_s = 5.0;
 
-/// Closed outline of centre + cos·a + sin·b.
+/// Closed outline of center + cos·a + sin·b.
 std::vector<Vector3> outline(const Vector3& centre, const Vector3& a, const Vector3& b) {
   std::vector<Vector3> points;
   points.reserve(kOutlineSegments + 1);

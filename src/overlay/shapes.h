@@ -1,5 +1,5 @@
 #pragma once
-/// Outlines of what the navigation says about its error: ellipse now, fan ahead.
+/// Outlines of the navigation's own error: ellipse now, fan ahead.
 
 #include <vector>
 
@@ -14,7 +14,7 @@ std::vector<Vector3> errorEllipse(const Vector3& centre_enu_m, const Matrix3& co
 /// Horizontal circle as a closed outline.
 std::vector<Vector3> circle(const Vector3& centre_enu_m, double radius_m);
 
-/// Where the rover is and how it goes on.
+/// Where the rover is and how it moves.
 struct Course {
   Vector3 position_enu_m = Vector3::Zero();
   double direction_rad = 0.0;    ///< of the motion over ground, from east, counter-clockwise
@@ -47,12 +47,12 @@ struct FanSection {
   double time_s = 0.0;
   double bound_m = 0.0;
   Vector3 centre_enu_m = Vector3::Zero();
-  Vector3 left_enu_m = Vector3::Zero();   ///< `bound_m` to the left of the centre
+  Vector3 left_enu_m = Vector3::Zero();   ///< `bound_m` to the left of the center
   Vector3 right_enu_m = Vector3::Zero();  ///< and to the right
 };
 
 /// Cross-sections of half-width `bounds_m[i]` at `times_s[i]` along the course. At most `max_sections` of them; the
-/// last one is always there.
+/// last one is always included.
 std::vector<FanSection> forecastFan(const Course& course, const std::vector<double>& times_s,
                                     const std::vector<double>& bounds_m, std::size_t max_sections = 61);
 

@@ -3,7 +3,7 @@
 namespace slipnav {
 namespace {
 
-/// Shorter standstill is no stop; as in findStops().
+/// Shorter standstill is not a stop; as in findStops().
 constexpr double kShortestStop_s = 0.5;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// The stops of a drive as they happen: where, how long, and what became of the error.
+/// The stops of a drive as they happen: where, how long, and the change of the error.
 
 #include <cstddef>
 #include <deque>
@@ -9,7 +9,7 @@
 
 namespace slipnav {
 
-/// Horizontal error at one moment, by truth where there is one, and as the estimate bounds it.
+/// Horizontal error at one moment, by truth if there is one, and by the bound of the estimate.
 struct ErrorReading {
   std::optional<double> true_m;
   double bound_m = 0.0;  ///< 3σ
@@ -25,18 +25,18 @@ struct LoggedStop {
   ErrorReading after;   ///< the last one at standstill
 };
 
-/// Tells stops from the estimates' own word on standstill.
+/// Detects stops from the standstill flag of the estimates.
 class StopLog {
  public:
-  /// @param capacity the oldest stops beyond it are forgotten
+  /// @param capacity beyond it the oldest stops are dropped
   explicit StopLog(std::size_t capacity) : capacity_(capacity) {}
 
   void clear();
 
-  /// One epoch, in ascending order of stamp. Standing before the first motion is no stop, nor is standing for a moment.
+  /// One epoch, in ascending order of stamp. Standing before the first motion does not count, nor does a short rest.
   void add(Nanoseconds stamp, bool stationary, const Vector3& position_enu_m, const ErrorReading& error);
 
-  /// The newest is the last; it may still go on.
+  /// The newest is last; it may still be in progress.
   const std::deque<LoggedStop>& stops() const { return stops_; }
 
  private:

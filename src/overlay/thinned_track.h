@@ -9,8 +9,8 @@
 
 namespace slipnav {
 
-/// Points at least `spacing` apart, and always the newest one. When the capacity is reached every second point goes and
-/// the spacing doubles, so that a drive of any length keeps its shape.
+/// Points at least `spacing` apart, and always the newest one. When the capacity is reached every second point is
+/// dropped and the spacing doubles, so that a drive of any length keeps its shape.
 /// @tparam Point has a member `position_enu_m`
 template <class Point>
 class ThinnedTrack {
@@ -39,7 +39,7 @@ class ThinnedTrack {
   double spacing() const { return spacing_m_; }  ///< [m]
 
  private:
-  /// The newest point is kept for good once it is far enough from the one before it.
+  /// The newest point is kept permanently once it is far enough from the previous one.
   bool newestMayGo() const {
     const std::size_t n = points_.size();
     return n >= 2 && (points_[n - 1].position_enu_m - points_[n - 2].position_enu_m).norm() < spacing_m_;

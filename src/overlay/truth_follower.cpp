@@ -7,7 +7,7 @@
 namespace slipnav {
 namespace {
 
-/// Truth that waits longer than this many samples for its estimate is forgotten.
+/// Truth that waits longer than this many samples for its estimate is dropped.
 constexpr std::size_t kMostWaiting = 5000;
 /// Pairs for the heading are taken this far apart.
 constexpr double kHeadingPairSpacing_m = 0.1;

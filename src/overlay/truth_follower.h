@@ -1,5 +1,5 @@
 #pragma once
-/// Truth as it comes, laid over the estimate as the evaluation lays it.
+/// Truth as it arrives, aligned with the estimate as in the evaluation.
 
 #include <deque>
 #include <optional>
@@ -18,26 +18,26 @@ struct TruthPair {
   EstimateSample estimate;
 };
 
-/// The topics that truth may come by, the preferred one first.
+/// The topics that may carry truth, the preferred one first.
 enum class TruthSource { kFix, kOdometry, kPose };
 
-/// Of several sources the most preferred one that has been heard is followed. Truth waits for the estimate of its epoch
-/// and the estimate for nobody.
+/// Of several sources the most preferred one heard is followed. Truth waits for the estimate of its epoch;
+/// the estimate waits for nothing.
 class TruthFollower {
  public:
-  /// @param lever_flu_m from base_link to the point whose position truth gives
+  /// @param lever_flu_m from base_link to the point tracked by the truth
   TruthFollower(const TruthParams& params, const Vector3& lever_flu_m);
 
-  /// Forgets everything, the start as well.
+  /// Discards everything, including the start.
   void clear();
   /// @param frame the map frame of the estimate; @param stamp where the estimate begins
   void start(const LocalFrame& frame, Nanoseconds stamp);
 
-  /// Stamps of a source that go back by a second or more make it forget what waits.
+  /// Stamps of a source that go back by a second or more discard what waits.
   void add(const GnssFix& fix);
   void add(TruthSource source, const TruthSample& pose);
 
-  /// The truth between two neighbouring estimates, placed; with align: heading nothing until the heading is known.
+  /// The truth between two neighboring estimates, aligned; with align: heading nothing until the heading is known.
   std::vector<TruthPair> follow(const EstimateSample& earlier, const EstimateSample& later);
 
  private:

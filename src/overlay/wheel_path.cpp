@@ -7,7 +7,7 @@
 namespace slipnav {
 namespace {
 
-/// How long before the newest sample an estimate may begin.
+/// How long before the newest sample an estimate may start.
 constexpr Nanoseconds kHeldBack = 60'000'000'000;
 
 template <class Sample>

@@ -1,5 +1,5 @@
 #pragma once
-/// Dead reckoning by wheels and gyro beside the estimate, from the moment on that the estimate begins.
+/// Dead reckoning from wheels and gyro next to the estimate, from its start on.
 
 #include <deque>
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace slipnav {
 
-/// The start is found out after the fact: samples of the last minute are held back until it is known, earlier ones
-/// serve the gyro bias. The track is that of PlanarDeadReckoning fed with everything.
+/// The start becomes known after the fact: samples of the last minute are held back until then, earlier ones
+/// are used for the gyro bias. The track is that of PlanarDeadReckoning fed with everything.
 class WheelPath {
  public:
   void clear();
-  /// Where the estimate begins. Later calls have no effect until clear().
+  /// Where the estimate starts. Later calls have no effect until clear().
   void start(const PlanarSample& pose);
-  /// Samples that are not finite are left out; stamps that go back by a second or more begin anew, without start.
+  /// Samples that are not finite are dropped; stamps that go back by a second or more restart it, without a start.
   void add(const ImuSample& imu);
   void add(const SpeedSample& speed);
 

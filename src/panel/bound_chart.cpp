@@ -76,7 +76,7 @@ void BoundChart::paintHistory(QPainter& painter, const QRectF& place) const {
   painter.setPen(QPen(palette().color(QPalette::Text), 1.5));
   painter.drawPolyline(line);
   painter.setPen(palette().color(QPalette::Text));
-  painter.drawText(place.adjusted(kMargin_px, 0.0, 0.0, 0.0), Qt::AlignLeft | Qt::AlignTop, "last 5 minutes");
+  painter.drawText(place.adjusted(kMargin_px, 0.0, 0.0, 0.0), Qt::AlignLeft | Qt::AlignBottom, "last 5 minutes");
 }
 
 }  // namespace slipnav

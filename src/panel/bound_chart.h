@@ -1,5 +1,5 @@
 #pragma once
-/// The bound of the position error against its threshold: now as a bar, its last minutes as a line.
+/// The bound on the position error against its threshold: now as a bar, its last minutes as a line.
 
 #include <QWidget>
 
@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// Colours are those of the window's palette, so that it can be read in light and dark styles.
+/// Colors are those of the window's palette, so that it is readable in light and dark styles.
 class BoundChart : public QWidget {
  public:
   explicit BoundChart(QWidget* parent);

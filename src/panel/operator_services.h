@@ -1,5 +1,5 @@
 #pragma once
-/// The services behind the panel's buttons, called without keeping the window waiting.
+/// The services behind the panel's buttons, called without blocking the window.
 
 #include <ros/node_handle.h>
 
@@ -21,7 +21,7 @@ inline constexpr const char* kCheckpointService = "filter/save_checkpoint";
 inline constexpr const char* kSupervisorParameters = "stop_supervisor/set_parameters";
 inline constexpr const char* kForecastParameters = "forecast/set_parameters";
 
-/// One call after the other, none left out, and one look at what there is, each in a thread of its own.
+/// Calls are made in order, none is dropped, and one availability check at a time, each in its own thread.
 class OperatorServices {
  public:
   explicit OperatorServices(const std::string& name_space) : node_(name_space) {}
@@ -32,11 +32,11 @@ class OperatorServices {
   void tune(const std::string& service, const std::string& key, const std::string& text);
   void tune(const std::string& service, const std::string& key, double value);
 
-  /// Starts a look at which services are there, unless one is under way.
+  /// Starts checking which services exist, unless a check is in progress.
   void look();
-  /// As of the last look that is done.
+  /// As of the last completed check.
   bool isThere(const std::string& service);
-  /// What the last call has answered, once; nothing as long as it has not.
+  /// The answer to the last call, once; nothing until there is one.
   std::optional<std::string> answer();
 
  private:

@@ -24,11 +24,12 @@ constexpr int kRefresh_ms = 200;
 constexpr double kLook_s = 1.0;
 constexpr double kReleaseWindow_s = 3.0;  // between the two clicks that end an emergency stop
 constexpr int kMostAlarms = 4;
+constexpr double kUnknownThreshold = 0.0;
 const char* const kModes[] = {"off", "advise", "active"};  // by the numbers of slipnav/StopStatus
 
 double now() { return ros::SteadyTime::now().toSec(); }
 
-/// Background and letters of the state, by which it is seen from afar.
+/// Background and text color of the state, visible from afar.
 QString styleOf(Mood mood) {
   switch (mood) {
     case Mood::kDanger:
@@ -132,11 +133,13 @@ void StopPanel::buildButtons() {
   for (const char* mode : kModes) {
     mode_->addItem(mode);
   }
+  mode_->setCurrentIndex(-1);  // until it is known
   connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
           [this](int index) { services_->tune(kSupervisorParameters, "stop.mode", std::string(kModes[index])); });
   threshold_ = new QDoubleSpinBox(this);
   threshold_->setObjectName("threshold");
-  threshold_->setRange(0.1, 100.0);
+  threshold_->setRange(kUnknownThreshold, 100.0);
+  threshold_->setSpecialValueText("–");
   threshold_->setSingleStep(0.5);
   threshold_->setSuffix(" m");
   threshold_->setKeyboardTracking(false);
@@ -152,7 +155,7 @@ void StopPanel::buildButtons() {
   grid->addWidget(new QLabel("stop at", this), 2, 2);
   grid->addWidget(threshold_, 2, 3);
   auto* column = qobject_cast<QVBoxLayout*>(layout());
-  column->insertWidget(column->indexOf(chart_), emergency_);  // seen on the smallest screen
+  column->insertWidget(column->indexOf(chart_), emergency_);  // visible on the smallest screen
   column->addLayout(grid);
   column->addWidget(answer_);
   column->addStretch(1);
@@ -171,7 +174,7 @@ void StopPanel::onEmergencyStop() {
 }
 
 void StopPanel::onThreshold() {
-  if (threshold_->value() != shown_.threshold_m) {
+  if (threshold_->value() != kUnknownThreshold && threshold_->value() != shown_.threshold_m) {
     services_->tune(kForecastParameters, "forecast.threshold_m", threshold_->value());
   }
 }

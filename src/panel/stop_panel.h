@@ -1,5 +1,5 @@
 #pragma once
-/// slipnav/StopPanel: what the operator of a rover sees and does, as a panel of rviz.
+/// slipnav/StopPanel: what a rover operator sees and does, as an rviz panel.
 
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
@@ -23,7 +23,7 @@ namespace slipnav {
 class BoundChart;
 class OperatorServices;
 
-/// Listens in the namespace of the node, and calls the services there.
+/// Subscribes in the namespace of the node, and calls the services there.
 class StopPanel : public rviz::Panel {
   Q_OBJECT
 

@@ -5,7 +5,7 @@
 namespace slipnav::sim {
 namespace {
 
-/// Below this, in metres and radians per second, a body at rest does not swing any more.
+/// Below this, in meters and radians per second, a body at rest stops swinging.
 constexpr double kHoldRate = 2e-4;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-/// Motion of the body against the path: what rocker and suspension make of stones under the wheels.
+/// Motion of the body against the path: the response of rocker and suspension to stones under the wheels.
 
 #include <Eigen/Core>
 #include <array>
@@ -15,25 +15,25 @@ namespace slipnav::sim {
 enum BodyAxis { kHeave, kSway, kPitch, kRoll, kBodyAxes };
 using BodyVector = Eigen::Matrix<double, kBodyAxes, 1>;
 
-/// What the stones ask for, as a function of the way, and how a suspension follows it.
+/// Excitation by the stones, as a function of the distance, and the response of a suspension.
 class BodyMotion {
  public:
   BodyMotion(const BodyParams& params, std::uint64_t seed);
 
   bool rocks() const { return rocks_; }
-  /// With springs the place of the body is to be integrated; without, it is that of the stones.
+  /// With springs the position of the body must be integrated; without, it is that of the stones.
   bool isSprung() const { return spring_radps_ > 0.0; }
 
   /// Where the stones put the body.
   BodyVector stones(double travel_m);
-  /// Its derivative by the travel.
+  /// Its derivative with respect to the travel.
   BodyVector stoneSlopes(double travel_m);
 
   /// Acceleration of a sprung body.
   /// @param offset of the stones over the body
   /// @param offset_rate its derivative by time
   BodyVector acceleration(const BodyVector& offset, const BodyVector& offset_rate) const;
-  /// The friction of the joints holds a sprung body that moves so little.
+  /// Whether joint friction holds a sprung body that moves this little.
   bool holds(const BodyVector& offset, const BodyVector& rate) const;
 
  private:

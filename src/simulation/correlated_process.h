@@ -1,5 +1,5 @@
 #pragma once
-/// A stationary random process over the distance travelled, with unit variance and exponential correlation.
+/// A stationary random process over the distance traveled, with unit variance and exponential correlation.
 
 #include <vector>
 
@@ -8,7 +8,7 @@
 namespace slipnav::sim {
 
 /// First-order Gauss-Markov values on a grid, joined by a uniform cubic B-spline: twice continuously differentiable.
-/// The value depends on the travel only, not on when or how often it is asked for.
+/// The value depends on the travel only, not on when or how often it is queried.
 class CorrelatedProcess {
  public:
   /// @param correlation_m distance over which the correlation falls to 1/e
@@ -16,7 +16,7 @@ class CorrelatedProcess {
 
   /// @param travel_m not negative
   double at(double travel_m);
-  /// Derivative of at() by the travel [1/m].
+  /// Derivative of at() with respect to the travel [1/m].
   double slopeAt(double travel_m);
 
  private:
@@ -29,7 +29,7 @@ class CorrelatedProcess {
 
   RandomStream stream_;
   double spacing_m_;
-  double persistence_;  ///< correlation of neighbouring grid values
+  double persistence_;  ///< correlation of neighboring grid values
   double scale_;        ///< makes up for the variance that the spline smooths away
   std::vector<double> grid_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// How the commanded wheel speed becomes the wheels' speed: limited acceleration, smooth, exact standstill.
+/// From commanded to actual wheel speed: limited acceleration, smooth, exact standstill.
 
 namespace slipnav::sim {
 

@@ -6,13 +6,13 @@ namespace slipnav::sim {
 namespace {
 
 constexpr double kLookahead_m = 1.2;
-/// At high speed it looks so long ahead.
+/// Look-ahead time at high speed.
 constexpr double kLookahead_s = 0.5;
 constexpr double kMaxYawRate_radps = 0.5;
-/// The turns of a fast rover are as wide as this sideways acceleration asks for.
+/// The turns of a fast rover are wide enough for this sideways acceleration.
 constexpr double kMaxLateral_mps2 = 2.5;
 constexpr double kTightestTurn_m = 2.5;
-/// The path stays straight beyond the initialisation drive, so that looking ahead does not bend its end.
+/// The path stays straight beyond the initialization drive, so that looking ahead does not bend its end.
 constexpr double kStraightReserve_m = 3.0;
 /// The planned path is longer than the drive: a rover that weaves or stops late must not run out of path.
 constexpr double kSpareRoute = 1.1;

@@ -1,5 +1,5 @@
 #pragma once
-/// The scripted operator, who sees the true pose: rest, straight initialisation drive, winding route, rest.
+/// The scripted operator, who sees the true pose: rest, straight initialization drive, winding route, rest.
 
 #include "simulation/params.h"
 #include "simulation/route.h"
@@ -8,19 +8,19 @@
 
 namespace slipnav::sim {
 
-/// Works through its phases by what it sees of the rover.
+/// Advances through its phases by what it sees of the rover.
 class Driver {
  public:
   explicit Driver(const SimulatorParams& params);
 
-  /// The path that these parameters give.
+  /// The path defined by these parameters.
   static Route routeOf(const SimulatorParams& params);
 
-  /// Command for the coming interval. A rover that is given another one, because somebody stops it, is led on from
+  /// Command for the next interval. A rover given a different one, because it is being stopped, continues from
   /// where it is.
   Command command(const TruthState& truth);
 
-  /// The initial rest and the straight drive are over: the distance that counts has begun.
+  /// The initial rest and the straight drive are over: the counted distance has begun.
   bool initialisationDriveDone() const { return phase_ >= Phase::kRoute; }
   /// Distance and final rest are done.
   bool finished() const { return phase_ == Phase::kFinished; }

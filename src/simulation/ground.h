@@ -1,5 +1,5 @@
 #pragma once
-/// The kinds of ground one can drive on.
+/// The available kinds of ground.
 
 #include <initializer_list>
 #include <string>
@@ -21,13 +21,13 @@ struct GroundParams {
   double vibration_radps = 0.0;  ///< 1σ of angular rate that passes the IMU's block mean
 };
 
-/// "paved", "unpaved", "gravel", "rough", and "rocking": strong roll and pitch without slip, to check mechanisations.
+/// "paved", "unpaved", "gravel", "rough", and "rocking": strong roll and pitch without slip, to check mechanizations.
 inline constexpr std::initializer_list<const char*> kTerrainNames = {"paved", "unpaved", "gravel", "rough", "rocking"};
 
 /// Throws std::invalid_argument that names an unknown terrain.
 GroundParams groundByName(const std::string& name);
 
-/// The same ground with what is to be different.
+/// The same ground with the given changes.
 GroundParams changed(GroundParams ground, const GroundChangeParams& change);
 
 }  // namespace slipnav::sim

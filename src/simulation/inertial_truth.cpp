@@ -39,7 +39,7 @@ void InertialTruth::add(const Kinematics& state, double dt_s) {
 InertialMean InertialTruth::finish() {
   const Vector3 gravity_enu = gravityAt(last_);
   const Vector3 gravity_b = rotation_sum_.transpose() * (0.5 * (last_gravity_enu_ + gravity_enu));
-  // what the trapezoid rule leaves out (Euler and Maclaurin): tiny, but it does not commute and would add up in
+  // what the trapezoid rule neglects (Euler and Maclaurin): tiny, but it does not commute and would accumulate in
   // attitude
   rate_sum_b_ += last_dt_s_ * last_dt_s_ / 12.0 * (start_angular_acceleration_b_ - angular_acceleration_b_);
   start_angular_acceleration_b_ = angular_acceleration_b_;

@@ -12,7 +12,7 @@ struct InertialMean {
   Vector3 omega_ib_b = Vector3::Zero();
 };
 
-/// Averages over fine steps in the tangent plane, which turns with the planet:
+/// Averages over fine steps in the tangent plane, which rotates with the planet:
 /// f = Cᵀ (dv/dt + 2 ω_ie × v − g) at the sensor, ω_ib = ω_eb + Cᵀ ω_ie.
 class InertialTruth {
  public:
@@ -23,7 +23,7 @@ class InertialTruth {
   void add(const Kinematics& state, double dt_s);
   /// The means over all steps added since the last call.
   InertialMean finish();
-  /// What holds at the end of the last fine step, for a sensor that samples at an instant.
+  /// Values at the end of the last fine step, for a sensor that samples instantaneously.
   const InertialMean& instant() const { return instant_; }
 
   /// Rotation of the planet in the tangent plane's axes [rad/s].

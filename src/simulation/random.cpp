@@ -5,7 +5,7 @@
 namespace slipnav::sim {
 namespace {
 
-/// Finaliser of SplitMix64 (Steele, Lea, Flood 2014): neighbouring seeds give unrelated results.
+/// Finalizer of SplitMix64 (Steele, Lea, Flood 2014): neighboring seeds give unrelated results.
 std::uint64_t scramble(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

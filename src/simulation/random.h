@@ -9,7 +9,7 @@
 
 namespace slipnav::sim {
 
-/// An independent stream for each purpose, so that drawing more of one leaves the others as they were.
+/// An independent stream for each purpose, so that drawing more from one leaves the others unchanged.
 class RandomStream {
  public:
   /// @param seed of the run

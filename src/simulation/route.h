@@ -1,5 +1,5 @@
 #pragma once
-/// The path that the operator follows: a straight start, then gentle bends and now and then a sharp turn.
+/// The path the operator follows: a straight start, then gentle bends and an occasional sharp turn.
 
 #include <vector>
 
@@ -18,7 +18,7 @@ struct RoutePoint {
 /// What follows the straight start.
 enum class RouteShape { kWinding, kCircle, kStraight };
 
-/// A polyline, and the place on it that the rover has come to.
+/// A polyline, and the rover's progress on it.
 class Route {
  public:
   /// @param straight_m length of the straight start
@@ -31,16 +31,16 @@ class Route {
   double startHeading() const { return points_.front().heading_rad; }
 
   /// Curvature [1/m], positive to the right, of the arc from the pose to the point `lookahead_m` further on the path
-  /// (pure pursuit). Moves the place on the path forward to the point nearest to the pose, never back.
+  /// (pure pursuit). Moves the progress forward to the point nearest to the pose, never back.
   double pursue(const RoutePoint& pose, double lookahead_m);
 
  private:
   void append(double curvature_per_m);
-  /// Legs and turns until the length is there.
+  /// Legs and turns until the length is reached.
   void wind(RandomStream& stream, std::size_t count, double radius_factor);
   /// An arc to a heading, the shorter way round.
   void appendTurn(double heading_rad, double radius_m);
-  /// A gentle double bend that ends with the heading it began with.
+  /// A gentle double bend that ends with its initial heading.
   void appendLeg(double length_m, double bend_per_m);
 
   std::vector<RoutePoint> points_;  ///< kSpacing apart

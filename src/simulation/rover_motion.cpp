@@ -72,7 +72,7 @@ bool RoverMotion::bodyHolds() {
                                           value_.segment<kBodyAxes>(kBodyRate));
 }
 
-/// Part of the wheels' surface speed that the ground takes: 1, and 0 where the rover is stuck.
+/// Fraction of the wheel surface speed that the ground takes: 1, and 0 where the rover is stuck.
 double RoverMotion::grip() const {
   if (stuck_time_s_ <= 0.0 || stuck_time_s_ >= stuck_.duration_s) {
     return 1.0;
@@ -81,7 +81,7 @@ double RoverMotion::grip() const {
   return 0.5 + 0.5 * std::cos(kPi * std::min(1.0, edge_s / kGripChange_s));
 }
 
-/// Adams-Bashforth of third order by divided differences, for steps of changing length.
+/// Third-order Adams-Bashforth by divided differences, for steps of varying length.
 void RoverMotion::integrate(double dt_s) {
   if (state_.standstill) {
     history_ = {Integrals::Zero(), Integrals::Zero(), dt_s, dt_s};
@@ -128,7 +128,7 @@ void RoverMotion::moveBody(const SurfacePoint& surface, const Slippage& slippage
   state_.v_eb_b << forward_mps, std::abs(forward_mps) * slippage.lateral - slippage.turn_centre_m * yaw_rate_radps, 0.0;
   state_.v_eb_enu = state_.C_b_to_enu * state_.v_eb_b;
 
-  // the axes turn with the surface's normal along the way; see doc/simulator.md
+  // the axes rotate with the surface normal along the path; see doc/simulator.md
   const Vector3 forward = state_.C_b_to_enu.col(0);
   const Vector3 right = state_.C_b_to_enu.col(1);
   const Vector2 gradient_rate = surface.hessian_per_m * state_.v_eb_enu.head<2>();

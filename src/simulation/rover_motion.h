@@ -31,7 +31,7 @@ double slipRatio(double ground_speed_mps, double surface_speed_mps);
 
 /// A place where the wheels spin for a while and the rover stands.
 struct StuckPlace {
-  double distance_m = 0.0;  ///< after so much way
+  double distance_m = 0.0;  ///< distance to it
   double duration_s = 0.0;
 };
 
@@ -41,17 +41,17 @@ class RoverMotion {
   RoverMotion(const VehicleParams& vehicle, const GroundParams& ground, double start_heading_rad, double straight_m,
               std::uint64_t seed, const BodyParams& body = {}, const StuckPlace& stuck = {});
 
-  /// Moves on by one fine step under a command; once nothing moves, the state stays exactly as it is.
+  /// Advances by one fine step under a command; once nothing moves, the state stays exactly constant.
   void advance(double forward_mps, double yaw_rate_radps, double dt_s);
 
   const Kinematics& state() const { return state_; }
-  /// Way of the wheels' surface [m], never decreasing.
+  /// Travel of the wheel surface [m], never decreasing.
   double travel() const { return value_[kTravel]; }
   /// The true radii [m], which the estimator does not know.
   const PerWheel& wheelRadii() const { return radius_m_; }
 
  private:
-  /// What is integrated over time.
+  /// State variables that are integrated over time.
   enum Index {
     kEast,
     kNorth,
@@ -59,12 +59,12 @@ class RoverMotion {
     kTravel,
     kDistance,
     kWheelAngle,
-    kBody = kWheelAngle + kWheelCount,  ///< place of a sprung body, then its rate
+    kBody = kWheelAngle + kWheelCount,  ///< position of a sprung body, then its rate
     kBodyRate = kBody + kBodyAxes,
     kIntegralCount = kBodyRate + kBodyAxes
   };
   using Integrals = Eigen::Matrix<double, kIntegralCount, 1>;
-  /// What the multi-step integration remembers.
+  /// History of the multi-step integration.
   struct History {
     Integrals rate = Integrals::Zero();   ///< one step ago
     Integrals slope = Integrals::Zero();  ///< divided difference of the rates one and two steps ago

@@ -14,7 +14,7 @@ constexpr double kSecondsPerHour = 3600.0;
 
 double fromDegPerHour(double rate_deg_per_h) { return degToRad(rate_deg_per_h) / kSecondsPerHour; }
 
-/// Samples that are read together still have stamps of their own.
+/// Samples that are read together still have different stamps.
 constexpr Nanoseconds kLeastStep = 20000;
 
 }  // namespace
@@ -98,7 +98,7 @@ bool EncoderModel::isDead(std::size_t wheel, Nanoseconds stamp) const {
   return static_cast<int>(wheel) + 1 == params_.dead_wheel && toSeconds(stamp - start_) >= params_.dead_after_s;
 }
 
-/// Two: one wheel a side, the mean of front and back. Six: such a one between them.
+/// Two: one wheel per side, the mean of front and back. Six: one such wheel between them.
 EncoderAngles EncoderModel::ofLayout(const PerWheel& angle_rad) const {
   const double left = 0.5 * (angle_rad[0] + angle_rad[2]);
   const double right = 0.5 * (angle_rad[1] + angle_rad[3]);

@@ -73,14 +73,14 @@ class ImuModel {
   Triad gyro_;
 };
 
-/// Quantised wheel angles and the mean rates between them.
+/// Quantized wheel angles and the mean rates between them.
 class EncoderModel {
  public:
   /// @param wheels 2, 4 or 6
   EncoderModel(const EncoderParams& params, Nanoseconds start, std::uint64_t seed, std::size_t wheels = kWheelCount);
 
   WheelSample measure(const PerWheel& angle_rad, Nanoseconds stamp);
-  /// Quantised angles of the last sample, from zero at the start [rad].
+  /// Quantized angles of the last sample, from zero at the start [rad].
   const EncoderAngles& angles() const { return last_angle_rad_; }
 
  private:
@@ -91,7 +91,7 @@ class EncoderModel {
   EncoderParams params_;
   std::size_t count_;
   double count_rad_;
-  EncoderAngles offset_counts_ = {};  ///< where in a count each wheel stands at the start
+  EncoderAngles offset_counts_ = {};  ///< position of each wheel within a count at the start
   EncoderAngles last_angle_rad_ = {};
   Nanoseconds start_;
   Nanoseconds last_stamp_;

@@ -20,7 +20,7 @@ Shaking::Shaking(const ShakingParams& params, bool samples_mean, std::uint64_t s
   }
 }
 
-/// Harmonics fall off as 1/n; every axis has phases of its own.
+/// Harmonics fall off as 1/n; every axis has its own phases.
 InertialMean Shaking::lines(double turns, const Phases& phases, double accel_mps2, double gyro_radps) const {
   InertialMean sum;
   for (std::size_t n = 1; n <= kHarmonics; ++n) {

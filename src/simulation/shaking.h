@@ -1,5 +1,5 @@
 #pragma once
-/// Shaking that an IMU senses and that does not move the rover: broadband from the ground, lines of motors and engines.
+/// Vibration that an IMU senses and that does not move the rover: broadband from the ground, motor and engine lines.
 
 #include <array>
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace slipnav::sim {
 
-/// What is on top of the smooth motion in each sample. Lines alias as the sampling makes them: an instantaneous sample
+/// Vibration added to the smooth motion in each sample. Lines alias according to the sampling: an instantaneous sample
 /// has their value at its instant, a mean the mean over the interval.
 class Shaking {
  public:
@@ -19,7 +19,7 @@ class Shaking {
   /// One fine step.
   /// @param travel_m of the wheels' surface at its end
   void advance(double travel_m, double dt_s);
-  /// What is on top of the sample that ends here.
+  /// Vibration in the sample that ends here.
   InertialMean sample(double speed_mps);
 
  private:

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kMaxFineStep_s = 1e-3;
 constexpr int kMinFineSteps = 20;
-/// Jitter never moves a sampling instant by more than this part of the interval.
+/// Jitter never moves a sampling instant by more than this fraction of the interval.
 constexpr double kMaxJitterPart = 0.4;
 
 Geodetic startPosition(const SimulatorParams& params) {
@@ -130,7 +130,7 @@ void RoverSimulator::Parts::sampleWheels(const Kinematics& state, Nanoseconds st
   out.wheel_angle_rad = encoder.angles();
 }
 
-/// What an ideal sensor would give for the interval that ends here.
+/// What an ideal sensor would measure in the interval that ends here.
 InertialMean RoverSimulator::Parts::senseInertia(double interval_s) {
   const double speed_mps = motion.state().v_eb_b.norm();
   const InertialMean mean = inertial.finish();
@@ -149,7 +149,7 @@ void RoverSimulator::Parts::updateTruth(Nanoseconds stamp) {
   truth.position = frame.toGeodetic(state.position_enu_m);
   const Matrix3 C_enu_to_n = frame.C_n_to_enu(truth.position).transpose();
   const Matrix3 C_b_to_n = C_enu_to_n * state.C_b_to_enu;
-  // the IMU senses vibration as the motion that it is, so it belongs to the truth
+  // the IMU senses vibration as real motion, so it belongs to the truth
   truth.q_b_to_n = (Quaternion(C_b_to_n) * quaternionFromRotationVector(vibration.angle())).normalized();
   truth.v_eb_n = C_enu_to_n * state.v_eb_enu + C_b_to_n * vibration.velocity();
   truth.heading_rad = std::atan2(C_b_to_n(1, 0), C_b_to_n(0, 0));

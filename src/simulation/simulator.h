@@ -8,7 +8,7 @@
 ///     ...
 ///   }
 ///
-/// See doc/simulator.md for what is modelled.
+/// See doc/simulator.md for what is modeled.
 
 #include <memory>
 #include <optional>
@@ -21,7 +21,7 @@
 
 namespace slipnav::sim {
 
-/// What the operator asks of the rover.
+/// The operator's command to the rover.
 struct Command {
   double forward_mps = 0.0;
   double yaw_rate_radps = 0.0;  ///< about body down: positive turns right
@@ -30,16 +30,16 @@ struct Command {
 /// One sample of the encoders.
 struct WheelReading {
   WheelSample sample;
-  EncoderAngles angle_rad = {};  ///< accumulated, quantised
+  EncoderAngles angle_rad = {};  ///< accumulated, quantized
 };
 
-/// What the sensors give in one IMU interval. The optional ones were taken inside that interval.
+/// Sensor outputs in one IMU interval. The optional ones were sampled inside that interval.
 struct Measurements {
   ImuSample imu;
   std::optional<WheelSample> wheel;
-  EncoderAngles wheel_angle_rad = {};        ///< accumulated, quantised; goes with `wheel`
+  EncoderAngles wheel_angle_rad = {};        ///< accumulated, quantized; goes with `wheel`
   std::vector<WheelReading> earlier_wheels;  ///< before `wheel`, when encoders are faster than the IMU
-  std::optional<GnssFix> gps;                ///< for initialisation
+  std::optional<GnssFix> gps;                ///< for initialization
   std::optional<GnssFix> truth;              ///< for metrics only
 };
 

@@ -14,18 +14,18 @@ constexpr double kWheelCorrelation_m = 0.5;
 constexpr double kLateralCorrelation_m = 6.0;
 constexpr double kTrackCorrelation_m = 4.0;
 constexpr double kStoneCorrelation_m = 0.3;  // of sway and heave
-/// Part of the fast slip's variance that both sides share.
+/// Fraction of the fast slip's variance that both sides share.
 constexpr double kSharedFast = 0.7;
 
-constexpr double kSideImpulses = 0.35;       // part of the impulses that take one side,
+constexpr double kSideImpulses = 0.35;       // fraction of the impulses that affect one side,
 constexpr double kWheelImpulses = 0.3;       // and one wheel; the rest take all four
 constexpr double kImpulseMinLength_m = 0.3;  // 0.4 s at 0.8 m/s
 constexpr double kImpulseMaxLength_m = 1.6;  // 2 s at 0.8 m/s
 constexpr double kOtherSideShare = 0.6;      // a side that loses grip drags the whole rigid body
-constexpr double kWheelBodyShare = 0.3;      // one wheel of four loses grip: its side loses some way, ...
+constexpr double kWheelBodyShare = 0.3;      // one wheel of four loses grip: its side loses some speed, ...
 constexpr double kWheelSpinShare = 0.4;      // ... and the unloaded wheel runs ahead of its command
 
-/// No more than this part of the speed is lost, approached smoothly.
+/// No more than this fraction of the speed is lost, approached smoothly.
 constexpr double kMaxLoss = 0.9;
 
 double limited(double loss) {

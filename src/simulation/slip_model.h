@@ -1,5 +1,5 @@
 #pragma once
-/// How the ground gives way under the wheels.
+/// How the ground yields under the wheels.
 
 #include <vector>
 
@@ -10,7 +10,7 @@
 
 namespace slipnav::sim {
 
-/// Slip of one kind of ground. Ratios are parts of the wheel's surface speed.
+/// Slip of one kind of ground. Ratios are fractions of the wheel surface speed.
 struct SlipParams {
   double mean = 0.0;           ///< persistent part on the level
   double mean_spread = 0.0;    ///< 1σ between drives, relative to `mean`
@@ -28,11 +28,11 @@ struct SlipParams {
   double heave_m = 0.0;              ///< 1σ of the body's height over the smooth relief, likewise
   double turn_centre_m = 0.0;        ///< 1σ along the vehicle of the point that does not move sideways in a turn
   double track_factor = 1.0;         ///< effective over geometric track when the rover turns (scrub)
-  double track_factor_spread = 0.0;  ///< 1σ along the way
-  double offset = 0.0;               ///< persistent part on top, the same in every drive
-  double patch = 0.0;                ///< on top in soft patches
+  double track_factor_spread = 0.0;  ///< 1σ along the path
+  double offset = 0.0;               ///< additional persistent part, the same in every drive
+  double patch = 0.0;                ///< additional slip in soft patches
   double patch_length_m = 3.0;       ///< mean
-  double patch_spacing_m = 10.0;     ///< mean, of what lies between two patches
+  double patch_spacing_m = 10.0;     ///< mean distance between two patches
 };
 
 /// Where the rover is, as far as slip is concerned.
@@ -43,14 +43,14 @@ struct Footing {
   double looseness = 0.0;  ///< factor on all slip
 };
 
-/// What the ground does to the commanded motion.
+/// Effect of the ground on the commanded motion.
 struct Slippage {
-  double left = 0.0;  ///< part of the left wheels' surface speed by which that side falls behind
+  double left = 0.0;  ///< fraction of the left wheels' surface speed by which that side falls behind
   double right = 0.0;
   double lateral = 0.0;        ///< sideways over forward speed, positive to the right
   double turn_centre_m = 0.0;  ///< ahead of base_link: the point that does not move sideways in a turn
   double heave_m = 0.0;        ///< of the body over the smooth relief
-  double heave_slope = 0.0;    ///< its derivative by the travel
+  double heave_slope = 0.0;    ///< its derivative with respect to the travel
   double track_factor = 1.0;
   PerWheel spin_up = {};  ///< excess of each wheel's speed over its command, relative
 };
@@ -60,7 +60,7 @@ class SlipModel {
  public:
   SlipModel(const SlipParams& params, std::uint64_t seed);
 
-  /// For a travel that does not decrease from call to call.
+  /// For a travel that does not decrease between calls.
   Slippage at(const Footing& footing);
 
  private:

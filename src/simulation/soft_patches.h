@@ -1,5 +1,5 @@
 #pragma once
-/// Soft patches on firm ground, as a function of the way.
+/// Soft patches on firm ground, as a function of the distance.
 
 #include "simulation/random.h"
 
@@ -12,7 +12,7 @@ class SoftPatches {
   /// @param spacing_m mean length of the ground between two; lengths are uniform between half the mean and 1.5 times it
   SoftPatches(double length_m, double spacing_m, std::uint64_t seed);
 
-  /// 0 on firm ground, 1 in a patch; for a travel that does not decrease from call to call.
+  /// 0 on firm ground, 1 in a patch; for a travel that does not decrease between calls.
   double at(double travel_m);
 
  private:
@@ -21,7 +21,7 @@ class SoftPatches {
   double length_m_;
   double spacing_m_;
   RandomStream stream_;
-  double begin_m_;  ///< of the patch that the rover is in, or comes to next
+  double begin_m_;  ///< of the current or next patch
   double end_m_;
 };
 

@@ -10,7 +10,7 @@ constexpr double kFirmRadius_m = 20.0;
 /// Standard deviation of the Gaussian footprint: four contacts at half the wheelbase and half the track.
 constexpr double kFootprint_m = 0.3;
 
-/// Largest change of a wave's phase that the follower takes by its power series.
+/// Largest change of a wave's phase that the follower computes by its power series.
 constexpr double kMaxPhaseStep_rad = 0.25;
 
 /// Transition from the firm area (0) to the open terrain (1): 1 − exp(−(ρ/R)⁴), with its derivatives.

@@ -20,7 +20,7 @@ struct ReliefParams {
   double tilt_deg = 0.0;  ///< of the whole plane, the firm area included; uphill in the direction of the start
 };
 
-/// The surface that the centre of the wheels follows, at one place.
+/// The surface that the center of the wheels follows, at one place.
 struct SurfacePoint {
   double height_m = 0.0;                                    ///< above the start
   Vector2 gradient = Vector2::Zero();                       ///< d/d(east, north)
@@ -28,10 +28,10 @@ struct SurfacePoint {
   double looseness = 0.0;  ///< 0 on the firm area around the start, 1 out in the terrain
 };
 
-/// Height as a function of the place. Immutable.
+/// Height as a function of position. Immutable.
 class Terrain {
  public:
-  /// @param start_heading_rad the firm area is centred on the straight that begins at the origin with this heading
+  /// @param start_heading_rad the firm area is centered on the straight that begins at the origin with this heading
   Terrain(const ReliefParams& relief, double start_heading_rad, double straight_m, std::uint64_t seed);
 
   /// Height and its derivatives; infinitely differentiable over the whole plane.
@@ -74,7 +74,7 @@ class Terrain {
   Vector2 tilt_;  ///< gradient of the whole plane
 };
 
-/// The same surface for someone who asks at places close to each other: sines come from those at a nearby anchor by
+/// The same surface for successive positions close to each other: sines come from those at a nearby anchor by
 /// the addition theorem, which is several times faster and agrees to rounding.
 class TerrainFollower {
  public:

@@ -1,5 +1,5 @@
 #pragma once
-/// What is really the case in a simulated drive, at one instant.
+/// The true state in a simulated drive, at one instant.
 
 #include <array>
 
@@ -15,7 +15,7 @@ using PerWheel = std::array<double, kWheelCount>;
 /// Angle of each wheel that has an encoder, in the order of WheelSample.
 using EncoderAngles = std::array<double, kMaxWheels>;
 
-/// Pose and motion are those of base_link, the centre of the four wheel centres. Body axes: forward, right, down.
+/// Pose and motion are those of base_link, the center of the four wheel centers. Body axes: forward, right, down.
 struct TruthState {
   Nanoseconds stamp = 0;
   Geodetic position;
@@ -29,7 +29,7 @@ struct TruthState {
   Vector3 gyro_bias_radps = Vector3::Zero();     ///< the sensor's own, in its axes [rad/s]
   PerWheel wheel_rate_radps = {};                ///< positive forward
   PerWheel wheel_radius_m = {};                  ///< true, constant
-  PerWheel slip = {};           ///< slip ratio with the true radius, in [−1, 1]; 0 where the wheel stands
+  PerWheel slip = {};           ///< slip ratio with the true radius, in [−1, 1]; 0 if the wheel is at rest
   double slip_angle_rad = 0.0;  ///< atan2(v_y, v_x) at base_link; 0 at standstill
   bool standstill = true;       ///< nothing moves: the pose is exactly constant
   double distance_m = 0.0;      ///< path length of base_link since the start

@@ -1,5 +1,5 @@
 #pragma once
-/// Shaking of the body on rough ground that a block mean lets through: small, fast, and without drift.
+/// Vibration of the body on rough ground that a block mean lets through: small, fast, and without drift.
 
 #include "simulation/ground.h"
 #include "simulation/inertial_truth.h"
@@ -7,16 +7,16 @@
 
 namespace slipnav::sim {
 
-/// At the end of each IMU interval the body is off its smooth motion by a random offset of micrometres, with the
-/// velocity that belongs to it, and a random attitude, in proportion to the speed; a tremor is left at rest. The IMU
-/// senses how these change. They are real motion and part of the truth.
+/// At the end of each IMU interval the body is off its smooth motion by a random offset of micrometers, with the
+/// corresponding velocity, and a random attitude, in proportion to the speed; some vibration remains at rest. The IMU
+/// senses the changes. They are real motion and part of the truth.
 class Vibration {
  public:
   /// @param factor on the ground's vibration
-  /// @param rate_hz of the IMU, to which the ground's figures are referred
+  /// @param rate_hz of the IMU, which the ground's figures refer to
   Vibration(const GroundParams& ground, double factor, double rate_hz, std::uint64_t seed);
 
-  /// What the IMU senses in an interval in place of the smooth motion's mean.
+  /// IMU reading in an interval instead of the smooth motion's mean.
   InertialMean shake(const InertialMean& smooth, double dt_s, double speed_mps);
 
   /// Velocity [m/s] and attitude [rad] of the body on top of the smooth motion at the end of the last interval, body

@@ -6,10 +6,10 @@
 
 namespace slipnav::sim {
 
-/// Names of the files NAME.yaml in `folder`, in alphabetical order; empty when there is no such folder.
+/// Names of the files NAME.yaml in `folder`, in alphabetical order; empty if there is no such folder.
 std::vector<std::string> configurationsIn(const std::string& folder);
 
-/// Path of NAME.yaml in `folder`. Throws std::invalid_argument that names the known ones when there is none.
+/// Path of NAME.yaml in `folder`. Throws std::invalid_argument that names the known ones if there is none.
 /// @param what for the message, e.g. "world"
 std::string configurationNamed(const std::string& name, const std::string& folder, const std::string& what);
 

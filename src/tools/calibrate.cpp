@@ -15,7 +15,7 @@ using slipnav::CommandLine;
 CommandLine commandLine() {
   CommandLine command_line("calibrate",
                            "Estimates wheel radii, scrub factor and IMU mounting from a recording with truth.");
-  command_line.positional("BAG", "recording of ROS 1")
+  command_line.positional("BAG", "ROS 1 recording")
       .option("truth", "TOPIC|FILE.pos",
               "truth: a topic of the recording or an RTKLIB solution; default: the first of "
               "truth/fix, truth/odometry, truth/pose that it has")

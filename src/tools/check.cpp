@@ -1,4 +1,4 @@
-/// Looks at a recording and says what is wrong with it, and writes a configuration from what it tells.
+/// Checks a recording, reports what is wrong with it, and writes a configuration from what it reveals.
 
 #include <iostream>
 #include <stdexcept>
@@ -17,12 +17,12 @@ using slipnav::CommandLine;
 
 CommandLine commandLine() {
   CommandLine command_line("check",
-                           "Looks at a recording, says what is wrong with it and what to do, the worst first. Exit "
+                           "Checks a recording: what is wrong with it and what to do, worst first. Exit "
                            "status: 0 usable, 1 doubtful, 2 not usable.");
-  command_line.positionals("BAG", "recording of ROS 1; several are parts of one drive")
+  command_line.positionals("BAG", "ROS 1 recording; several are parts of one drive")
       .option("truth", "TOPIC|FILE.pos", "truth: a topic of the recording or an RTKLIB solution; default: by its name")
-      .option("wheel-radius", "M", "of all wheels, where no configuration says it", "0")
-      .option("out", "YAML", "configuration to write: what the drive is sure of, each with its reason");
+      .option("wheel-radius", "M", "of all wheels, if no configuration gives it", "0")
+      .option("out", "YAML", "configuration to write: what the drive determines reliably, with reasons");
   slipnav::declareConfigOptions(command_line);
   return command_line;
 }
@@ -70,7 +70,7 @@ int run(int argc, char** argv) {
   return slipnav::statusOf(inspection.findings);
 }
 
-/// Status 1 means doubt: whatever keeps from looking at the recording is 2.
+/// Status 1 means doubt: anything that prevents checking the recording is 2.
 int runToStatus(int argc, char** argv) {
   try {
     return run(argc, argv);

@@ -1,4 +1,4 @@
-/// Prints every parameter: the defaults, or what a set of configuration files and overrides amounts to.
+/// Prints every parameter: the defaults, or the result of configuration files and overrides.
 
 #include <iostream>
 

@@ -1,5 +1,5 @@
-/// Copies a recording and makes the wheel messages come later, each by a random time of its own: what a busy network
-/// does. Headers stay as they are.
+/// Copies a recording and delays its wheel messages, each by a random time, like a busy network. Headers
+/// are unchanged.
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -18,11 +18,11 @@ using slipnav::CommandLine;
 
 CommandLine commandLine() {
   CommandLine command_line("delay_wheels", "Copies a recording and delays its wheel messages at random.");
-  command_line.positional("BAG", "recording of ROS 1")
+  command_line.positional("BAG", "ROS 1 recording")
       .positional("COPY", "what to write")
       .option("most", "S", "longest delay [s]", "0.5")
       .option("duration", "S", "seconds to copy, 0 for all", "0")
-      .option("seed", "N", "makes the delays", "1");
+      .option("seed", "N", "seed of the delays", "1");
   slipnav::declareConfigOptions(command_line);
   return command_line;
 }

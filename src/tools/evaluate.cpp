@@ -23,8 +23,8 @@ using slipnav::CommandLine;
 
 CommandLine commandLine() {
   CommandLine command_line("evaluate", "Runs the pipeline on a recording, without a ROS master, and measures it.");
-  command_line.positional("BAG", "recording of ROS 1")
-      .repeated("part", "BAG", "further file of the same recording, as rosbag record --split leaves them")
+  command_line.positional("BAG", "ROS 1 recording")
+      .repeated("part", "BAG", "another file of the same recording, as rosbag record --split leaves them")
       .option("truth", "TOPIC|FILE.pos",
               "truth: a topic of the recording or an RTKLIB solution; default: the first of "
               "truth/fix, truth/odometry, truth/pose that it has")
@@ -32,16 +32,19 @@ CommandLine commandLine() {
       .option("odometry", "FILE", "every message of `odometry` as bytes, to compare runs with")
       .flag("smooth", "run the drive backwards too: a second row, and smoothed.csv and smoothed.tum beside the others")
       .repeated("compare", "NAME=TOPIC|NAME=FILE.tum",
-                "poses of somebody else on the same drive: a further row, compare_NAME.csv and compare_NAME.tum")
+                "another system's poses on the same drive: one more row, compare_NAME.csv and compare_NAME.tum")
       .flag("returns-to-start", "the drive ends where it began: without truth it is judged by that")
-      .flag("report", "plots into the same place");
+      .flag("report", "plots into the same place")
+      .option("figure", "STOP", "the paper's figure of that stop, counted from 1, as stop_STOP.png in the same place");
   slipnav::declareConfigOptions(command_line);
   return command_line;
 }
 
 void checkArguments(const Arguments& arguments) {
-  if (arguments.given("report") && !arguments.given("out")) {
-    throw slipnav::UsageError("--report needs --out");
+  for (const char* plots : {"report", "figure"}) {
+    if (arguments.given(plots) && !arguments.given("out")) {
+      throw slipnav::UsageError("--" + std::string(plots) + " needs --out");
+    }
   }
 }
 
@@ -92,7 +95,7 @@ void printFindings(const slipnav::BagEvaluation& evaluation) {
             << slipnav::alarmLines("evaluate: alarm", others, evaluation.begin);
 }
 
-/// Also a run without a start leaves behind what was wrong.
+/// A run without a start also reports its problems.
 slipnav::BagEvaluation evaluated(const slipnav::Config& config, const Arguments& arguments) {
   try {
     return slipnav::evaluateBag(partsOf(arguments), config, arguments.text("truth"), {}, arguments.given("smooth"));
@@ -135,6 +138,9 @@ int run(int argc, char** argv) {
   }
   if (arguments.given("report")) {
     slipnav::plotReport(arguments.text("out"));
+  }
+  if (arguments.given("figure")) {
+    slipnav::plotStop(arguments.text("out"), static_cast<int>(arguments.integer("figure", {1.0, 1e6})));
   }
   std::cout << slipnav::tableHeader() << slipnav::tableRows(slipnav::runName(bag), std::nullopt, report)
             << slipnav::runName(bag) << ": " << report.metrics.verdict << '\n';

@@ -1,4 +1,4 @@
-/// Injects faults into a simulated drive, one by one and in random pairs, and prints what becomes of the estimate.
+/// Injects faults into a simulated drive, singly and in random pairs, and prints their effect on the estimate.
 
 #include <algorithm>
 #include <iomanip>
@@ -25,12 +25,12 @@ using slipnav::Config;
 using slipnav::Fault;
 
 constexpr double kWorseFactor = 2.0;
-constexpr double kLeastError_m = 0.1;  // below this an error is none worth comparing
+constexpr double kLeastError_m = 0.1;  // smaller errors are not worth comparing
 
 CommandLine commandLine() {
-  CommandLine command_line("faults", "Injects faults into a simulated drive and prints what becomes of the estimate.");
-  command_line.option("distance", "M", "metres to drive after the initialisation", "100")
-      .option("seed", "N", "makes the drive, and chooses the pairs", "1")
+  CommandLine command_line("faults", "Injects faults into a simulated drive and prints their effect on the estimate.");
+  command_line.option("distance", "M", "meters to drive after the initialization", "100")
+      .option("seed", "N", "seed of the drive and of the choice of pairs", "1")
       .option("pairs", "N", "how many random pairs of faults to try as well", "20")
       .option("only", "TEXT", "only faults with this in their name")
       .option("out", "DIR", "where the recordings go", "out/faults");
@@ -47,7 +47,7 @@ void simulate(const Config& config, const std::string& bag) {
   writer.close();
 }
 
-/// What came of one run.
+/// Result of one run.
 struct Outcome {
   bool survived = false;  ///< it ended with finite estimates
   std::string failure;

@@ -16,7 +16,7 @@ slipnav::CommandLine declareCommandLine() {
       .choice("inference", {"dense", "state_space"}, "exact, or in linear time", defaults.inference)
       .option("horizon", "S", "how far to predict, in seconds", "60")
       .option("origin", "T", "time origin of the Brownian kernel; without it one interval before the first sample")
-      .option("out", "JSON", "all of it as JSON into a file; - for standard output in the place of the summary");
+      .option("out", "JSON", "everything as JSON into a file; - for standard output instead of the summary");
   return command;
 }
 

@@ -1,5 +1,5 @@
-/// Plays a recording through the running nodelets and says what that costs: CPU, memory, and how long an estimate
-/// takes, seen from outside; and how fast a recording may be played.
+/// Plays a recording through the running nodelets and measures the cost: CPU, memory, and the latency of
+/// estimates, seen from outside; and how fast a recording may be played.
 
 #include <ros/ros.h>
 #include <rosbag/bag.h>
@@ -40,24 +40,24 @@ constexpr double kMostMemory_mb = 60.0;
 constexpr double kMostLatency_ms = 2.0;
 constexpr double kLeastRate = 50.0;
 constexpr double kSettling_s = 10.0;  // of estimates, before the figures count
-constexpr double kMargin_s = 1.0;     // of recording, after the last estimate that is wanted
-/// The last one is far beyond what any machine sustains: rosbag play then goes as fast as the nodelets take it.
+constexpr double kMargin_s = 1.0;     // of recording, after the last required estimate
+/// The last one is far beyond any machine: rosbag play then runs as fast as the nodelets accept it.
 constexpr double kRates[] = {50.0, 100.0, 1000.0};
 
 CommandLine commandLine() {
-  CommandLine command_line("load", "Plays a recording through the running nodelets and says what that costs.");
-  command_line.positional("BAG", "recording of ROS 1")
+  CommandLine command_line("load", "Plays a recording through the running nodelets and measures the cost.");
+  command_line.positional("BAG", "ROS 1 recording")
       .option("seconds", "S", "how long to watch in real time", "60")
-      .option("out", "FILE", "where the table goes as well")
+      .option("out", "FILE", "file to write the table to as well")
       .option("manager", "NODE", "the nodelets' manager", "slipnav_manager")
       .option("tree", "NAME", "parameter tree of the configuration", "slipnav");
   return command_line;
 }
 
-/// When each message came, by its stamp.
+/// When each message arrived, by its stamp.
 using Arrivals = std::map<Nanoseconds, double>;
 
-/// Listens beside the nodelets.
+/// Listens alongside the nodelets.
 class Probe {
  public:
   explicit Probe(const slipnav::TopicNames& topics) {
@@ -65,7 +65,7 @@ class Probe {
     listen<nav_msgs::Odometry>(topics.odometry, [this](Nanoseconds stamp) { onEstimate(stamp); });
   }
 
-  /// Forgets what has come, and passes over estimates before `stamp`; the first of the others calls `begin`.
+  /// Discards earlier arrivals, and skips estimates before `stamp`; the first one after it calls `begin`.
   void watchFrom(Nanoseconds stamp, const std::function<void()>& begin) {
     imu_.clear();
     estimates_.clear();
@@ -93,7 +93,7 @@ class Probe {
     return estimates_.empty() ? 0.0 : slipnav::toSeconds(estimates_.rbegin()->first - estimates_.begin()->first);
   }
 
-  /// How many of these estimates have not come.
+  /// How many of these estimates have not arrived.
   std::size_t missing(const slipnav::EstimateTrack& expected) const {
     return static_cast<std::size_t>(std::count_if(
         expected.begin(), expected.end(),
@@ -178,7 +178,7 @@ class Load {
     table_.add("IMU sample to its odometry, longest [ms]", slipnav::percentile(latencies, 100.0));
   }
 
-  /// @return the rate that was reached, 0 when something was lost
+  /// @return the rate that was reached, 0 if something was lost
   double playAt(double rate) {
     probe_.watchFrom(0, [] {});
     session_.play({bag_, rate, 0.0, 0.0}, offline_.report.estimates.back().stamp);

@@ -1,4 +1,4 @@
-/// The solutions of an RTKLIB file as rows of numbers, for scripts; what it leaves out goes to standard error.
+/// The solutions of an RTKLIB file as rows of numbers, for scripts; skipped rows are reported on standard error.
 
 #include <iostream>
 #include <limits>
@@ -17,11 +17,11 @@ using slipnav::RtklibSolution;
 CommandLine commandLine() {
   CommandLine command_line("positions", "Prints the solutions of an RTKLIB file: UNIX time, position, covariance.");
   command_line.positional("FILE", "RTKLIB solution (.pos)")
-      .flag("truth", "leave out rows that are far off the rows about them, as evaluate does with truth");
+      .flag("truth", "skip rows far off their neighbors, as evaluate does with truth");
   return command_line;
 }
 
-/// Solutions without the rows that hold none; these are counted by what is the matter with them.
+/// Rows that contain a solution; the others are counted by what is wrong with them.
 std::vector<RtklibSolution> solved(const std::vector<RtklibSolution>& rows, std::map<std::string, int>& left_out) {
   std::vector<RtklibSolution> solutions;
   for (const RtklibSolution& row : rows) {
@@ -34,7 +34,7 @@ std::vector<RtklibSolution> solved(const std::vector<RtklibSolution>& rows, std:
   return solutions;
 }
 
-/// Without those that the truth of an evaluation would be without.
+/// Without those that an evaluation would reject as truth.
 std::vector<RtklibSolution> withoutOutliers(const std::vector<RtklibSolution>& solutions,
                                             std::map<std::string, int>& left_out) {
   std::vector<slipnav::GnssFix> fixes;
@@ -48,7 +48,7 @@ std::vector<RtklibSolution> withoutOutliers(const std::vector<RtklibSolution>& s
     if (kept.count(solution.fix.stamp) > 0) {
       believed.push_back(solution);
     } else {
-      ++left_out["rows far off the rows about them"];
+      ++left_out["rows far off their neighbors"];
     }
   }
   return believed;
@@ -81,7 +81,7 @@ int run(int argc, char** argv) {
   }
   print(solutions);
   for (const auto& [what, count] : left_out) {
-    std::cerr << path << ": " << what << ": " << count << " left out\n";
+    std::cerr << path << ": " << what << ": " << count << " skipped\n";
   }
   return 0;
 }

@@ -21,7 +21,7 @@ using slipnav::Range;
 
 CommandLine commandLine() {
   CommandLine command_line("replay", "Plays a recording through the running nodelets and measures their estimate.");
-  command_line.positional("BAG", "recording of ROS 1")
+  command_line.positional("BAG", "ROS 1 recording")
       .option("rate", "FACTOR", "how fast to play", "1")
       .option("start", "S", "seconds from the beginning of the recording", "0")
       .option("duration", "S", "seconds to play, 0 for all", "0")

@@ -21,7 +21,7 @@ using slipnav::Arguments;
 using slipnav::CommandLine;
 using slipnav::Config;
 
-/// Where worlds and grades are: installed, or in the source tree.
+/// Location of worlds and grades: installed, or in the source tree.
 std::string configurationFolder(const std::string& kind) {
   const std::filesystem::path installed = slipnav::packageExecutable("../../share/slipnav/config");
   const std::filesystem::path folder =
@@ -35,8 +35,8 @@ CommandLine commandLine() {
       .option("world", "NAME", "ground, body, sensors and operator of config/worlds; 'list' names them; see --grade")
       .option("grade", "NAME", "the IMU and its data sheet: one of config/grades; 'list' names them")
       .choice("terrain", {"paved", "unpaved", "gravel", "rough", "rocking"}, "the ground", "rough")
-      .option("distance", "M", "metres to drive after the initialisation", "150")
-      .option("seed", "N", "makes terrain, slip and sensor errors", "1")
+      .option("distance", "M", "meters to drive after the initialization", "150")
+      .option("seed", "N", "seed of terrain, slip and sensor errors", "1")
       .option("policy", "P", "when to stop: none, periodic:EVERY_S:HOLD_S, autonomous", "periodic:12:3")
       .option("threshold", "M", "error bound at which autonomous stops come; forecast.threshold_m")
       .option("out", "DIR", "where metrics.json, timeline.csv, forecasts.csv, estimate.tum, truth.tum go")
@@ -75,7 +75,7 @@ Config configuration(const Arguments& arguments) {
   return config;
 }
 
-/// Drives, navigates and records; returns what there is to say about it.
+/// Drives, navigates and records; returns the report.
 slipnav::SimulationReport drive(const Config& config, slipnav::StopPolicy& policy, const std::string& bag,
                                 bool with_baselines, bool smooth) {
   if (bag.empty()) {
@@ -92,7 +92,7 @@ slipnav::SimulationReport drive(const Config& config, slipnav::StopPolicy& polic
   return report;
 }
 
-/// Prints the names where they were asked for. @return whether they were
+/// Prints the names if requested. @return whether they were
 bool listNames(const Arguments& arguments) {
   bool listed = false;
   for (const char* kind : {"world", "grade"}) {

@@ -19,8 +19,8 @@ CommandLine commandLine() {
   CommandLine command_line("tune",
                            "Noise, stamp delay and slip of a robot from its recordings by maximum likelihood of the "
                            "innovations. Needs no truth and uses none.");
-  command_line.positionals("BAG", "recordings of ROS 1; of several one set of values for all")
-      .option("out", "YAML", "file to write when tuning is worth it, for --config after the present ones")
+  command_line.positionals("BAG", "ROS 1 recordings; several give one set of values for all")
+      .option("out", "YAML", "file to write when tuning is worth it, for --config after the current ones")
       .repeated("only", "KEY", "tune this parameter and no others");
   slipnav::declareConfigOptions(command_line);
   return command_line;

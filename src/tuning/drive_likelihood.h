@@ -1,7 +1,7 @@
 #pragma once
-/// How likely a drive is under a configuration: what the filter's innovations say of it, without any truth.
+/// How likely a drive is under a configuration, from the filter's innovations, without any truth.
 ///
-/// Each measurement is scored against its prediction from all that came before, the noise learned until then included:
+/// Each measurement is scored against its prediction from all earlier ones, including the noise learned until then:
 /// the product over a drive is the likelihood of the configuration (A. P. Dawid, Present position and potential
 /// developments, J. R. Stat. Soc. A 147(2), 1984; for filters F. C. Schweppe, IEEE TIT 11(1), 1965).
 
@@ -19,12 +19,12 @@ namespace slipnav {
 struct TuningDrive {
   std::string name;
   Config config;                ///< what its samples were read with, poses of the sensors included
-  std::vector<Sample> samples;  ///< as they came
+  std::vector<Sample> samples;  ///< in order of arrival
 };
 
-/// ρ(d²) of an innovation of `rows` rows with normalized square `squared`: as it is inside the gate, and
-/// c² (1 + ln(d²/c²)) beyond, c² the 99.9 % quantile. The density exp(−½ρ) has a tail that falls as a power of the
-/// distance, so that a jump of the slip counts as an outlier and not as a reason to believe in a larger noise.
+/// ρ(d²) of an innovation of `rows` rows with normalized square `squared`: unchanged inside the gate, and
+/// c² (1 + ln(d²/c²)) beyond, c² the 99.9 % quantile. The density exp(−½ρ) has a power-law tail,
+/// so that a jump in slip counts as an outlier and not as evidence for larger noise.
 double robustSquare(int rows, double squared);
 
 /// Of the innovations of one kind in one stretch of time.
@@ -49,8 +49,8 @@ using DriveLikelihood = std::vector<ComponentSums>;
 /// How many stretches a drive has.
 std::size_t stretchCount(const TuningDrive& drive);
 
-/// Runs the navigation over a drive. Where it never starts all sums are empty.
-/// @param config what to judge; its wheel.stamp_delay_s may differ from that of the drive
+/// Runs the navigation over a drive. If it never starts all sums are empty.
+/// @param config to be judged; its wheel.stamp_delay_s may differ from that of the drive
 /// @param stretches how many of them to run
 DriveLikelihood likelihoodOf(const TuningDrive& drive, const Config& config, std::size_t stretches);
 

@@ -9,14 +9,14 @@
 namespace slipnav {
 namespace {
 
-/// In standard deviations of the prior: the first steps, and steps that are not worth another run.
+/// In standard deviations of the prior: the first steps, and steps not worth another run.
 constexpr double kFirstStep = 0.25;
 constexpr double kLastStep = 0.05;
 constexpr double kDifference = 0.25;
 constexpr int kLongestFit = 15;  // runs per knob
 constexpr std::size_t kUsualFit = 10;
 
-/// What the optimizer asks, in standard deviations of the prior.
+/// The optimizer's objective, in standard deviations of the prior.
 class Objective {
  public:
   Objective(GainMeter& meter, const DriveParts& parts, const Selection& selection)
@@ -70,7 +70,7 @@ class Objective {
   double best_value_ = -std::numeric_limits<double>::infinity();
 };
 
-/// Positions about one: steps up and down on one axis, up on two.
+/// Neighboring positions: steps up and down on one axis, up on two.
 Eigen::VectorXd stepped(const GainMeter& meter, Eigen::VectorXd position, std::size_t knob, double sign) {
   position(static_cast<Eigen::Index>(knob)) += sign * kDifference * meter.knobs()[knob].prior_std;
   return position;

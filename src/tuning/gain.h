@@ -1,5 +1,5 @@
 #pragma once
-/// What another configuration gains in log likelihood over the configured one, on parts of one or several drives.
+/// Gain of another configuration in log likelihood over the configured one, on parts of one or several drives.
 
 #include <Eigen/Core>
 #include <functional>
@@ -24,14 +24,14 @@ using DriveParts = std::vector<DrivePart>;
 ComponentSums sumsOf(const DriveLikelihood& likelihood, const DrivePart& part);
 
 /// ln p(other)/p(base) of each stretch of a part. A kind of measurement counts as often as in `base`: how often the
-/// filter compares depends on what it believes, and a comparison more is no gain. Where one kind is missing altogether
+/// filter compares depends on its state, and an additional comparison is not a gain. If one kind is missing altogether
 /// each of its measurements counts as a loss of ten.
 std::vector<double> gainsOver(const DriveLikelihood& base, const DriveLikelihood& other, const DrivePart& part);
 
-/// Drives, and what moving knobs about their configuration gains on them.
+/// Drives, and the gain on them from moving knobs about their configuration.
 class GainMeter {
  public:
-  /// @param on_run is told of each run of a drive that has ended, from any thread
+  /// @param on_run called after each run of a drive, from any thread
   GainMeter(std::vector<Knob> knobs, std::vector<TuningDrive> drives, std::function<void()> on_run);
 
   const std::vector<Knob>& knobs() const { return knobs_; }
@@ -39,7 +39,7 @@ class GainMeter {
   /// Under the configured values.
   const std::vector<DriveLikelihood>& base() const { return base_; }
 
-  /// All drives from begin to end.
+  /// All drives from start to end.
   DriveParts everything() const;
 
   /// The drives of the parts with the knobs moved by `position`, each as far as the parts reach; the others are empty.

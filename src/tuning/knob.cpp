@@ -11,11 +11,11 @@
 namespace slipnav {
 namespace {
 
-/// A configured deviation is off by a factor of three, as the filter's own learning takes it to be.
+/// A configured deviation is off by a factor of three, as assumed by the filter's own learning.
 const double kPriorStd = std::log(3.0);
-/// Beyond a factor of ten something else is wrong than a noise.
+/// Beyond a factor of ten something other than noise is wrong.
 const double kLargestFactor = std::log(10.0);
-/// Clocks of hosts and of drivers [s]; more than this is no delay but another clock.
+/// Clocks of hosts and drivers [s]; more than this is not a delay but another clock.
 constexpr double kDelayStd_s = 0.05;
 constexpr double kLargestDelay_s = 0.25;
 
@@ -97,8 +97,7 @@ std::vector<Knob> knobsWith(const std::vector<std::string>& keys, const std::vec
   }
   for (const std::string& key : keys) {
     if (std::find(known.begin(), known.end(), key) == known.end()) {
-      throw std::invalid_argument("'" + key + "' is nothing that is tuned, did you mean '" + nearestName(key, known) +
-                                  "'?");
+      throw std::invalid_argument("'" + key + "' cannot be tuned, did you mean '" + nearestName(key, known) + "'?");
     }
   }
   return chosen;

@@ -18,7 +18,7 @@ constexpr double kLongestMove = 2.0;
 constexpr double kSure = 2.5;
 constexpr std::size_t kMostKnobs = 6;
 
-/// What a move gains, by half and stretch.
+/// Gain of a move, by half and stretch.
 using HalfGains = std::array<std::vector<double>, 2>;
 
 double sumOf(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
@@ -42,7 +42,7 @@ struct Trial {
   HalfGains up;
   HalfGains down;
 
-  /// The direction that one half prefers, judged on the other; none where it prefers to stay.
+  /// The direction that one half prefers, judged on the other; none if it prefers to stay.
   Gain crossed() const {
     Gain gain;
     for (std::size_t half = 0; half < 2; ++half) {

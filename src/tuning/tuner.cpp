@@ -13,12 +13,12 @@
 namespace slipnav {
 namespace {
 
-/// A knob is not told when it is known hardly better after the drives than before, in standard deviations of the prior.
+/// A knob is undetermined if its 1σ after the drives is above this, in standard deviations of the prior.
 constexpr double kLeastKnowledge = 0.7;
 constexpr double kLeastMeasurements = 100.0;
-/// The gain on what was held out has to be beyond so many of its own standard deviations.
+/// The gain on held-out data must be beyond this many of its own standard deviations.
 constexpr double kSure = 2.0;
-/// So many are worth fitting, as a rule.
+/// Typical number worth fitting.
 constexpr std::size_t kUsualKnobs = 2;
 
 double measurementsOf(const ComponentSums& sums) {
@@ -43,7 +43,7 @@ std::size_t middleOf(const DriveLikelihood& likelihood) {
   return stretch;
 }
 
-/// Counts runs, and tells how far all has come.
+/// Counts runs, and reports progress.
 class Counter {
  public:
   explicit Counter(const TuningWatcher& watcher) : watcher_(watcher) {}
@@ -82,7 +82,7 @@ void requireStarts(const GainMeter& meter) {
   }
 }
 
-/// Of what was fitted to the other half.
+/// Judges what was fitted to the other half.
 void judge(GainMeter& meter, const Eigen::VectorXd& position, const DriveParts& parts, HeldOut& held_out) {
   const std::vector<DriveLikelihood> after = meter.run(position, parts);
   for (const DrivePart& part : parts) {
@@ -104,8 +104,8 @@ HeldOut judgeHalves(GainMeter& meter, const std::array<DriveParts, 2>& halves,
   return held_out;
 }
 
-/// Where the knobs that were fitted are now, and how well that is known. What is hardly known better than before goes
-/// back to where it was, also in the halves.
+/// Current values of the fitted knobs, and their uncertainty. One known hardly better than before goes
+/// back to its configured value, also in the halves.
 void settle(GainMeter& meter, const std::vector<std::size_t>& free, std::array<Eigen::VectorXd, 3>& fitted,
             TuningResult& result) {
   const Eigen::MatrixXd covariance = covarianceAt(meter, meter.everything(), fitted[2], free);

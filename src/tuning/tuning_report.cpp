@@ -37,7 +37,7 @@ std::string fixed(double value, int decimals, bool with_sign = false) {
   return out.str();
 }
 
-/// "×/÷ 1.2" of a factor, "± 0.004" of an amount.
+/// "×/÷ 1.2" for a factor, "± 0.004" for an amount.
 std::string uncertainty(const TunedKnob& tuned) {
   return tuned.knob.is_factor ? "×/÷ " + number(std::exp(*tuned.std)) : "± " + number(*tuned.std);
 }
@@ -88,7 +88,7 @@ void writeKnobs(const Config& config, const TuningResult& result, std::ostream& 
     }
   }
   if (!untold.empty()) {
-    out << "not told by these drives, left as configured: " << untold << "\n";
+    out << "not determined by these drives, left as configured: " << untold << "\n";
   }
 }
 
@@ -112,12 +112,12 @@ std::string tuningTable(const Config& config, const TuningResult& result) {
   writeKnobs(config, result, out);
   const HeldOut& held_out = result.held_out;
   out << "held out, " << (result.drives > 1 ? "each half of the drives" : "each half of the drive")
-      << " under what the other half says:\n  log likelihood " << fixed(held_out.log_likelihood, 1) << " before, "
+      << " under the fit to the other half:\n  log likelihood " << fixed(held_out.log_likelihood, 1) << " before, "
       << fixed(held_out.log_likelihood + held_out.gain.value, 1) << " after: " << fixed(held_out.gain.value, 1, true)
       << ", 1 sigma " << fixed(held_out.gain.std, 1) << "\n";
   writeNis(held_out, out);
-  out << (result.worthwhile ? "worth it: what was held out is more likely under the tuned values\n"
-                            : "not worth it: what was held out is not clearly more likely, stay with the configured "
+  out << (result.worthwhile ? "worth it: the held-out data are more likely under the tuned values\n"
+                            : "not worth it: the held-out data are not clearly more likely, stay with the configured "
                               "values\n");
   return out.str();
 }

@@ -21,7 +21,7 @@ void navigate(Pipeline& pipeline) {
   }
 }
 
-/// Where the drive starts, as the initialisation finds it.
+/// Where the drive starts, as the initialization finds it.
 InitialState startOfDrive() {
   Pipeline pipeline(Planet::byName(config().planet), config().navigation(),
                     [](const Estimate&, const ErrorCovariance&) {});
@@ -29,7 +29,7 @@ InitialState startOfDrive() {
   return pipeline.initial().value();
 }
 
-/// Mechanisation, Φ, Q and the propagation of the covariance.
+/// Mechanization, Φ, Q and the propagation of the covariance.
 void imuStep(benchmark::State& state) {
   NavigationSetup setup = config().navigation();
   setup.filter.filter.updates.clear();
@@ -96,7 +96,7 @@ void wheelUpdate(benchmark::State& state) {
   state.counters["limit_us"] = 15.0;
 }
 
-/// Initialisation, mechanisation and filter over 915 s of all sensors.
+/// Initialization, mechanization and filter over 915 s of all sensors.
 void offlineDrive(benchmark::State& state) {
   longDrive();
   for (auto _ : state) {

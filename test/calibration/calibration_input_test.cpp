@@ -29,7 +29,7 @@ bool isNotObservable(const CalibrationResult& result, const std::string& quantit
                      [&quantity](const std::string& line) { return line.rfind(quantity, 0) == 0; });
 }
 
-/// The straight drive of the initialisation and hardly more.
+/// The straight drive of the initialization and hardly more.
 const Config& straightConfig() {
   static const Config config = calibrationConfig(1, 1.0);
   return config;

@@ -17,7 +17,7 @@ CalibrationResult fullResult() {
   result.track_m = 0.685;
   result.mount_pitch_rad = Calibrated{degToRad(0.2), degToRad(0.01)};
   result.mount_yaw_rad = Calibrated{degToRad(-0.25), degToRad(0.05)};
-  result.not_observable = {"roll of the IMU: no course shows it"};
+  result.not_observable = {"roll of the IMU: not visible in any course"};
   return result;
 }
 
@@ -65,7 +65,7 @@ TEST(CalibrationReportTest, theTableHasEveryQuantityAndReason) {
                            "scrub factor                      1.0000      1.5000      0.0100",
                            "effective track [m]               0.6850      1.0275      0.0069",
                            "imu.mount.yaw_deg                  0.000       0.250       0.050",
-                           "not observable: roll of the IMU: no course shows it"}) {
+                           "not observable: roll of the IMU: not visible in any course"}) {
     EXPECT_NE(table.find(line), std::string::npos) << line << "\n" << table;
   }
 }

@@ -61,7 +61,7 @@ TEST(CalibrationTest, leverArmsOfImuAndTruthCount) {
   EXPECT_LT(std::abs(result.turn_centre_m->value), 0.02);
 }
 
-/// On soft ground a rover drives crabwise down a slope, and to one side for metres; both look like a turned IMU.
+/// On soft ground a rover drives crabwise down a slope, and to one side for meters; both look like a turned IMU.
 TEST(CalibrationTest, theYawAllowsForSideSlip) {
   for (const int seed : {7, 11}) {
     Config config = calibrationConfig(seed, 300.0);

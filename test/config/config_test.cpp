@@ -77,6 +77,28 @@ TEST(Config, OverridesWinOverFiles) {
   EXPECT_EQ(config.topics.imu, "/imu");
 }
 
+TEST(Config, PapersForecastRefusesWhatContradictsIt) {
+  const auto with = [](std::initializer_list<const char*> settings) {
+    std::vector<Override> overrides;
+    for (const char* setting : settings) {
+      overrides.push_back(keyOverride(setting));
+    }
+    return complaint({}, overrides);
+  };
+  EXPECT_EQ(
+      with({"forecast.schedule=paper"}),
+      "'forecast.schedule: paper' contradicts 'forecast.bound: growth', it needs 'absolute'; config/paper.yaml has "
+      "all that belongs to it");
+  EXPECT_EQ(
+      with({"forecast.schedule=paper", "forecast.bound=absolute"}),
+      "'forecast.schedule: paper' contradicts 'stop.forecast_timeout_s', which must be above 'forecast.window_s': "
+      "before the first forecast stops would become periodic");
+  EXPECT_EQ(with({"forecast.schedule=paper", "forecast.bound=absolute", "stop.forecast_timeout_s=15.1"}),
+            "nothing was thrown");
+  EXPECT_EQ(with({"forecast.sigma_points.form=letter"}),
+            "'forecast.sigma_points.form: letter' needs 'forecast.schedule: paper'");
+}
+
 TEST(Config, WrongOverridesAreNamed) {
   EXPECT_EQ(complaint({}, {topicOverride("imu/dta:=x")}),
             "--topic imu/dta:=x: unknown key 'topics.imu/dta', did you mean 'topics.imu/data'?");

@@ -1,4 +1,4 @@
-/// Is the covariance honest? Normalised estimation errors and innovations over many drives on rough ground.
+/// Is the covariance honest? Normalized estimation errors and innovations over many drives on rough ground.
 
 #include <gtest/gtest.h>
 
@@ -11,10 +11,10 @@
 namespace slipnav::test {
 namespace {
 
-/// So many that the average of one minute strays by 0.13.
+/// Enough that the average of one minute strays by 0.13.
 constexpr int kDrives = 40;
 constexpr double kDistance_m = 650.0;
-/// What the average normalised estimation error squared, per degree of freedom, may be: 1 is exact.
+/// What the average normalized estimation error squared, per degree of freedom, may be: 1 is exact.
 /// The filter does not know this ground before it drives on it, and is cautious by about a factor of two.
 constexpr Range kAnees{0.1, 1.6};
 /// Of the velocity at a minute that may fall on a stop, or just before one.

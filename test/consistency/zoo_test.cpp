@@ -14,9 +14,9 @@
 namespace slipnav::test {
 namespace {
 
-/// So many that the average strays by 0.17.
+/// Enough that the average strays by 0.17.
 constexpr int kSeeds = 24;
-/// What the average normalised estimation error squared, per degree of freedom, may be: 1 is exact.
+/// What the average normalized estimation error squared, per degree of freedom, may be: 1 is exact.
 /// 0.4 would do for a filter that knows its ground; this one does not believe in a road that stays as good as it is.
 constexpr Range kAnees{0.04, 1.6};
 constexpr double kLeastCoverage_pct = 98.0;
@@ -105,12 +105,12 @@ TEST_P(Stuck, StandsWhereItStands) {
     const SimulationReport report = driveIn({GetParam(), "tactical", "none"}, seed);
     EXPECT_LE(report.figures.largest_error_m, kLargestError_m) << "seed " << seed;
     EXPECT_GE(report.run.metrics.coverage_3sigma_pct.value(), kLeastCoverage_pct) << "seed " << seed;
-    EXPECT_EQ(report.figures.alarms.count("stuck: the wheels turn and the rover stands"), 1U) << "seed " << seed;
+    EXPECT_EQ(report.figures.alarms.count("stuck: the wheels turn but the rover does not move"), 1U) << "seed " << seed;
   }
 }
 
-/// Where soft ground begins, slip is not what the ground is expected to have. Drawn back to that at once, it would take
-/// the velocity along: 1.23 % of the way instead of 0.63 %.
+/// Where soft ground begins, slip is not what is expected of the ground. Pulled back to that immediately, it would take
+/// the velocity along: 1.23 % of the distance instead of 0.63 %.
 TEST(SoftPatches, DoNotPullTheVelocityToTheWheels) {
   constexpr int kDrives = 4;
   constexpr double kLargestError_pct = 0.9;

@@ -12,7 +12,8 @@ FILES_OF_USERS = {"my_rover.yaml", "sensor.yaml", "RTKLIB.pos", "report.html", "
 
 # Nodelets whose publishers live in a class of their own.
 PUBLISHERS = {"estimate_publisher.cpp": ["Filter"], "sensor_publisher.cpp": ["Simulator", "SimulatedRover"],
-              "stop_outputs.cpp": ["StopSupervisor"]}
+              "stop_outputs.cpp": ["StopSupervisor"], "hand_over.cpp": ["Filter"],
+              "start_reporter.cpp": ["Initializer"]}
 # diagnostic_updater publishes it for every nodelet.
 DIAGNOSTICS = ("diagnostics", "diagnostic_msgs/DiagnosticArray")
 PLACEHOLDER = r"%[-.\d]*l?[a-zA-Z]"
@@ -99,7 +100,7 @@ def tuners():
 
 def services():
     """NODE/SERVICE, nodes named as in nodelets.launch."""
-    nodes = dict(re.findall(r'name="(\w+)" args="load slipnav/(\w+)', read("launch/nodelets.launch")))
+    nodes = dict(re.findall(r"\b(\w+)=slipnav/(\w+)", read("launch/nodelets.launch")))
     node_of = {nodelet: node for node, nodelet in nodes.items()}
     served = {f"{node_of[nodelet]}/{name}" for nodelet, text in nodelet_sources()
               for name in re.findall(r'serve\("(\w+)"', text)}
@@ -169,7 +170,7 @@ def diagnostic_texts():
         for statement in re.findall(r"NODELET_(?:WARN|ERROR)\w*\((.*?)\);", text, flags=re.S):
             texts.update(literals(statement)[:1])
     for function in ("problemOf", "dangerOf"):
-        texts.update(literals(body_of(function, read("src/nodelets/stop_supervisor_nodelet.cpp"))))
+        texts.update(literals(body_of(function, read("src/core/stopping/stop_verdict.cpp"))))
     texts.update(literals(body_of("failureOfImu", read("src/nodelets/ins_nodelet.cpp"))))
     texts.update(literals(body_of("troubleOf", read("src/nodelets/forecast_nodelet.cpp"))))
     texts.update(literals(body_of("problem", read("src/ros/runtime/sensor_watch.h"))))

@@ -68,7 +68,7 @@ TEST(EnduranceFigures, TheTrendIsFromTheFirstHourToTheLast) {
     row.latency_p50_ms = row.driven_h < 0.16 ? 9.0 : row.driven_h < 1.16 ? 0.2 : row.driven_h < 3.99 ? 7.0 : 0.3;
     row.latency_p99_ms = 5.0 * row.latency_p50_ms;
   }
-  rows[30].latency_p50_ms = 100.0;  // something else was going on for a moment
+  rows[30].latency_p50_ms = 100.0;  // the machine was busy for a moment
   const EnduranceFigures figures = enduranceFigures(rows);
   EXPECT_EQ(figures.latency_p50_ms.first, 0.2);
   EXPECT_EQ(figures.latency_p50_ms.last, 0.3);

@@ -33,7 +33,7 @@ TEST(LoopClosure, ByHandOnACircle) {
   EXPECT_NEAR(*metrics.distance_m, 100.0, 0.3);
   EXPECT_NEAR(*metrics.closure_pct, 0.5, 0.002);
   EXPECT_NEAR(*metrics.closure_3sigma_m, 3.0 * std::sqrt(0.04), 1e-9);  // without the 2 m of the start
-  EXPECT_EQ(metrics.verdict.rfind("consistent: returns to its start but for 0.5 m, 0.5 % of the distance", 0), 0U)
+  EXPECT_EQ(metrics.verdict.rfind("consistent: returns to its start within 0.5 m, 0.5 % of the distance", 0), 0U)
       << metrics.verdict;
 }
 
@@ -42,7 +42,7 @@ TEST(LoopClosure, BeyondThreeSigmaIsOverConfident) {
   track.back().position_enu_m.x() += 0.5;
   Metrics metrics;
   addLoopClosure(track, true, metrics);
-  EXPECT_EQ(metrics.verdict.rfind("over-confident: returns to its start but for 0.894 m", 0), 0U) << metrics.verdict;
+  EXPECT_EQ(metrics.verdict.rfind("over-confident: returns to its start within 0.894 m", 0), 0U) << metrics.verdict;
 }
 
 TEST(LoopClosure, TruthKeepsItsDistanceAndItsVerdict) {

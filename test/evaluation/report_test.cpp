@@ -105,10 +105,12 @@ TEST_F(Report, writesTheStateOfTheFilter) {
 TEST_F(Report, writesBaselineAndSlipForecasts) {
   RunReport report = smallReport();
   report.diagnostics.wheel_only = {{1'602'774'000'500'000'000, 1.5, 2.5, 0.0}};
-  report.diagnostics.slip_forecasts = {{1'602'774'000'500'000'000, 0.1, 0.25, 0.125}};
+  report.diagnostics.slip_forecasts = {{1'602'774'000'500'000'000, 0.1, 0.25, 0.125, {0.8, 0.9, 0.75}}};
   writeRunReport(folder_, report);
   EXPECT_EQ(contentOf("wheel_track.csv"), "t,east,north\n1602774000.500000000,1.5,2.5\n");
-  EXPECT_EQ(contentOf("slip_forecasts.csv"), "t,horizon_s,mean,stddev\n1602774000.500000000,0.1,0.25,0.125\n");
+  EXPECT_EQ(contentOf("slip_forecasts.csv"),
+            "t,horizon_s,mean,stddev,wheel_speed,wheel_speed_above,wheel_speed_below\n"
+            "1602774000.500000000,0.1,0.25,0.125,0.8,0.9,0.75\n");
 }
 
 TEST_F(Report, writesTheNeesOfThePosition) {

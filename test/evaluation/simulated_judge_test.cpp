@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kRouteEnd_m = 10.0;
 
-/// Ten metres at 1 m/s with a stop of two seconds after the fifth, then a rest; the estimate is off by `error`.
+/// Ten meters at 1 m/s with a stop of two seconds after the fifth, then a rest; the estimate is off by `error`.
 SimulationFigures judged(const ErrorVector& error, bool stop_is_used) {
   const Planet planet = Planet::byName("earth");
   SimulatedJudge judge(planet, Vector3::Zero(), kRouteEnd_m);

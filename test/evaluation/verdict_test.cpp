@@ -23,7 +23,7 @@ TEST(Verdict, namesConsistency) {
   EXPECT_EQ(verdictOf(metrics, true), "cautious");
   metrics.position_nees_mean = 76.0;
   metrics.coverage_3sigma_pct = 42.6;
-  EXPECT_EQ(verdictOf(metrics, true), "over-confident: 3 sigma cover 42.6 % of the errors, NEES 76");
+  EXPECT_EQ(verdictOf(metrics, true), "over-confident: 3 sigma covers 42.6 % of the errors, NEES 76");
   EXPECT_EQ(verdictOf(Metrics{}, true), "not judged: no truth");
 }
 

@@ -127,7 +127,7 @@ class Engines {
 
   void take(const ErrorForecast& message) {
     const Nanoseconds stamp = toNanoseconds(message.header.stamp);
-    gate_.push(StopForecast{stamp, message.time_to_stop_s});
+    gate_.push(StopForecast{stamp, message.time_to_stop_s, message.kept_s});
     gate_.dealtWith(stamp);
   }
 

@@ -4,7 +4,7 @@
     pip install scikit-learn
     python3 make_gp_oracle.py            # reads gp_slip.csv beside it, writes gp_oracle.csv and gp_optima.csv
 
-gp_slip.csv holds rows 1 to 150 of slip_pathfinder.csv (time_s, slip) from wvu-navLab/CN-GP, MIT licence.
+gp_slip.csv holds rows 1 to 150 of slip_pathfinder.csv (time_s, slip) from wvu-navLab/CN-GP, MIT license.
 
 gp_oracle.csv, rows `case,model,kind,index,value`: at fixed hyperparameters, with times k = 1..150 times `unit`, the
 log hyperparameters in the order of hyperparameterNames(), the log marginal likelihood, its gradient, and at some times

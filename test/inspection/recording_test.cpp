@@ -179,10 +179,10 @@ TEST(InspectionOfRecording, HoldsAConfigurationAgainstTheData) {
   expectFinding(names, "has no joint 'left'; it has front_left_wheel", Severity::kUnusable);
   options.config->topics.imu = "imu/data";
   options.config->wheels = {{"front_left_wheel", 0.1, 0.0, 0.3, -1.0}, {"front_right_wheel", 0.1, 0.0, -0.3, 1.0}};
-  expectFinding(inspectSpoilt([](Recording&) {}, options), "turn against", Severity::kUnusable);
+  expectFinding(inspectSpoilt([](Recording&) {}, options), "turn opposite", Severity::kUnusable);
   options.config->wheels[0].sign = 1.0;
   options.config->imu.mount.yaw_deg = 90.0;
-  expectFinding(inspectSpoilt([](Recording&) {}, options), "imu.mount does not say", Severity::kUnusable);
+  expectFinding(inspectSpoilt([](Recording&) {}, options), "imu.mount does not match", Severity::kUnusable);
   options.config->imu.mount.yaw_deg = 180.0;
   expectFinding(inspectSpoilt([](Recording&) {}, options), "disagree on the direction", Severity::kUnusable);
 }

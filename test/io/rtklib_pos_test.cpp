@@ -86,7 +86,7 @@ TEST(RtklibPos, readsDegreesMinutesSecondsAndCommas) {
   EXPECT_NEAR(solutions[0].fix.covariance_ned_m2(1, 1), 4.0, 1e-12);
 }
 
-/// Earth-centred coordinates of 39.6° N, 79.9° W, 250 m, written with 0.1 mm, as RTKLIB does.
+/// Earth-centered coordinates of 39.6° N, 79.9° W, 250 m, written with 0.1 mm, as RTKLIB does.
 std::string ecefText() {
   double x = 0.0;
   double y = 0.0;
@@ -179,7 +179,7 @@ TEST(RtklibPos, refusesWhatItWouldMistake) {
   EXPECT_NE(errorOf("% (lat/lon/height=Tokyo/ellipsoidal,Q=1:fix)\n").find("Tokyo datum"), std::string::npos);
   EXPECT_NE(errorOf("% (LAT/LON/HEIGHT=WGS84/GEODETIC,Q=1:FIX)\n").find("heights are geodetic"), std::string::npos);
   EXPECT_NE(errorOf("$GPGGA,150000.00,3936.0,N,07954.0,W,4,09,1.0,250.0,M,-33.0,M,0.1,0000*00\n")
-                .find("x.pos:1: sentences of NMEA"),
+                .find("x.pos:1: NMEA sentences"),
             std::string::npos);
 }
 

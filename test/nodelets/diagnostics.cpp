@@ -29,7 +29,7 @@ constexpr double kPatience_s = 30.0;
 
 class Diagnostics : public ::testing::Test {
  protected:
-  /// Changes a message, or has it left out (false).
+  /// Changes a message, or drops it (false).
   template <class Message>
   using Fault = std::function<bool(Message&)>;
 
@@ -171,7 +171,7 @@ TEST_F(Diagnostics, NameTheCauseAndEndWithIt) {
         imu.linear_acceleration = frozen.linear_acceleration;
         return true;
       },
-      {}, "ins", "the IMU repeats the very same values");
+      {}, "ins", "the IMU repeats exactly the same values");
   tryFault(
       {}, [](Joints&) { return false; }, "filter", "wheels silent: nothing usable on joint_states");
   tryFault(
@@ -207,7 +207,7 @@ TEST_F(Diagnostics, AStopThatIsIgnored) {
   call.request.data = 1;
   ASSERT_TRUE(ros::service::call("stop_supervisor/emergency_stop", call));
   obeys_ = false;
-  const std::string words = "the rover drives on although it is told to stop";
+  const std::string words = "the rover keeps driving although it is told to stop";
   expectAlarm("stop_supervisor", words, diagnostic_msgs::DiagnosticStatus::ERROR);
   obeys_ = true;
   expectEnd("stop_supervisor", words);

@@ -31,9 +31,7 @@ TEST(LaunchFiles, AreUnderstood) {
   EXPECT_EQ(roslaunchStatus({"simulate.launch", "terrain:=gravel", "distance:=10", "seed:=7", "policy:=periodic:12:3",
                              "rate:=5", "out:=somewhere", "report:=true", "rviz:=true"}),
             0);
-  EXPECT_EQ(
-      roslaunchStatus({"simulate.launch", "simulator:=standalone slipnav/Simulator", "endurance:=1", "out:=somewhere"}),
-      0);
+  EXPECT_EQ(roslaunchStatus({"simulate.launch", "apart:=true", "endurance:=1", "out:=somewhere"}), 0);
   EXPECT_EQ(roslaunchStatus({"simulate.launch", "operator:=true", "terrain:=paved", "stop_mode:=advise",
                              "options:=--set gnss.use=always"}),
             0);

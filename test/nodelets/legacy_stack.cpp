@@ -37,7 +37,7 @@ constexpr double kRate = 5.0;       // on real time
 constexpr double kDrive_s = 120.0;  // at most
 constexpr double kTolerance = 1e-9;
 
-/// What drives the legacy rover: it counts down to a stop, holds for five seconds, and goes on. Every message sets the
+/// The legacy rover's driver: it counts down to a stop, holds for five seconds, and resumes. Every message sets the
 /// countdown, except during a hold.
 class LegacyDriver {
  public:

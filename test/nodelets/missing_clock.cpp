@@ -13,11 +13,11 @@
 namespace slipnav {
 namespace {
 
-constexpr const char* kWords = "use_sim_time is set, and nobody publishes /clock";
+constexpr const char* kWords = "use_sim_time is set, but nobody publishes /clock";
 
 class MissingClock : public ::testing::Test {
  protected:
-  /// The IMU goes on meanwhile. @return whether it happened within the time
+  /// The IMU continues meanwhile. @return whether it happened within the time
   bool happensWithin(double limit_s, const std::function<bool()>& condition) {
     const ros::SteadyTime begin = ros::SteadyTime::now();
     while (!condition() && (ros::SteadyTime::now() - begin).toSec() < limit_s) {

@@ -1,4 +1,4 @@
-/// Each nodelet in turn is unloaded while the rover drives, and loaded again a moment later: the estimate goes on, and
+/// Each nodelet in turn is unloaded while the rover drives, and reloaded a moment later: the estimate continues, and
 /// its covariance covers what was missed.
 
 #include <gtest/gtest.h>
@@ -172,7 +172,7 @@ TEST_F(ReloadNodelets, TheEstimateGoesOn) {
   }
 }
 
-/// After a clock that has gone back, a nodelet that is loaded anew knows nothing of the sessions before.
+/// After a clock that has gone back, a reloaded nodelet knows nothing of earlier sessions.
 TEST_F(ReloadNodelets, InTheSecondSessionAsWell) {
   drive(kFirstUnload_s, [](double) {});
   stamps_.clear();

@@ -1,4 +1,4 @@
-/// A short recording, seen in rviz: what is drawn where, in which colour, without errors and fast enough.
+/// A short recording, seen in rviz: what is drawn where, in which color, without errors and fast enough.
 ///
 /// rviz is the library that the program of that name is made of, with the configuration that replay.launch gives it.
 
@@ -123,7 +123,7 @@ class RvizOverlay : public ::testing::Test {
     return false;
   }
 
-  /// Of the points that the picture covers, most have the colour of their track.
+  /// Of the points that the picture covers, most have the color of their track.
   static void expectTrack(const std::vector<Vector3>& track, const Colour& colour) {
     const Vector3 rover = report_.estimates.back().position_enu_m;
     std::optional<Vector3> last;

@@ -5,6 +5,7 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <rosgraph_msgs/Log.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <functional>
@@ -21,7 +22,8 @@ namespace slipnav {
 namespace {
 
 constexpr double kRate = 5.0;  // on real time
-constexpr double kDrive_s = 40.0;
+constexpr double kDrive_s = 60.0;
+constexpr double kUnderWay_s = 35.0;  // from then on there is no reason for warnings
 
 /// One of them, and what is heard of it.
 struct Rover {
@@ -58,12 +60,17 @@ class TwoRovers : public ::testing::Test {
     for (const char* topic : {"/a/diagnostics", "/b/diagnostics"}) {
       listen<diagnostic_msgs::DiagnosticArray>(topic, [this](const auto& message) {
         for (const auto& status : message->status) {
-          if (status.message.find("another node") != std::string::npos || status.level > 1) {
+          if (under_way && status.level != diagnostic_msgs::DiagnosticStatus::OK) {
             complaints.insert(status.name + ": " + status.message);
           }
         }
       });
     }
+    listen<rosgraph_msgs::Log>("/rosout_agg", [this](const auto& message) {
+      if (under_way && message->level >= rosgraph_msgs::Log::WARN) {
+        complaints.insert(message->name + ": " + message->msg);
+      }
+    });
   }
 
   template <class Message, class Handler>
@@ -82,6 +89,7 @@ class TwoRovers : public ::testing::Test {
 
   std::vector<ros::Subscriber> subscribers;
   std::set<std::string> tree;
+  bool under_way = false;  ///< both have started, some seconds ago
   std::set<std::string> complaints;
 };
 
@@ -98,6 +106,7 @@ TEST_F(TwoRovers, HaveTreesOfTheirOwn) {
   for (double t_s = 0.0; t_s < kDrive_s; t_s = toSeconds(a.drive->truth().stamp - first)) {
     a.advance();
     b.advance();
+    under_way = t_s > kUnderWay_s;
     do {
       spin();
     } while ((ros::SteadyTime::now() - begin).toSec() < t_s / kRate);

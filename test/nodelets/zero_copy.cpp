@@ -1,4 +1,4 @@
-/// Messages between nodelets of one process are the same objects on both sides: nothing is serialised or copied.
+/// Messages between nodelets of one process are the same objects on both sides: nothing is serialized or copied.
 ///
 /// All nodelets of a drive run in this process beside the probes. Two listeners of one process alone would prove
 /// nothing by equal addresses: of a message that came as bytes, roscpp makes one object and shares that. So the first
@@ -56,7 +56,7 @@ using Objects = std::vector<Object>;
 constexpr double kRate = 20.0;  // on real time
 constexpr double kTimeout_s = 10.0;
 
-// By value, a message would be serialised for every listener.
+// By value, a message would be serialized for every listener.
 static_assert(!std::is_invocable_v<decltype(&SharedPublisher<Slip>::publish), SharedPublisher<Slip>, Slip>);
 
 /// Serves the listeners of this test, all in its one thread, until `done` or for at most `timeout_s`.

@@ -1,4 +1,4 @@
-/// Outlines, forecast fan and colours.
+/// Outlines, forecast fan and colors.
 
 #include "overlay/shapes.h"
 

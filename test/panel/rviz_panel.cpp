@@ -177,7 +177,7 @@ class RvizPanel : public ::testing::Test {
     StopStatus stop;
     stop.mode = StopStatus::MODE_ACTIVE;
     stop.time_left_s = 34.0;
-    stop.reason = "the position error comes to its threshold";
+    stop.reason = "the position error reaches its threshold";
     return stop;
   }
   static ErrorForecast makeForecast() {
@@ -200,6 +200,8 @@ TEST_F(RvizPanel, ShowsEveryState) {
   silent_ = true;
   expectState("NO DATA", "stale");
   EXPECT_FALSE(button("stop_now")->isEnabled());
+  EXPECT_EQ(panel_.findChild<QComboBox*>("mode")->currentText(), "") << "what nobody has said is not shown";
+  EXPECT_EQ(panel_.findChild<QDoubleSpinBox*>("threshold")->text(), "–");
   silent_ = false;
   Initialization start;
   start.progress = "stand still, 3 of 5 s";
@@ -276,7 +278,7 @@ TEST_F(RvizPanel, AnEmergencyStopIsOneClickAndItsEndTwo) {
   expectCall("stop_supervisor/emergency_stop false");
 }
 
-/// Of 800 rows, window and status bar of rviz leave so many.
+/// Of 800 rows, this many remain after the window frame and rviz's status bar.
 TEST_F(RvizPanel, FitsASmallScreenWithAllItsButtons) {
   diagnostic_msgs::DiagnosticArray array;
   array.status.resize(6);

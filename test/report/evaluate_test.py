@@ -129,7 +129,7 @@ class JoiningTest(unittest.TestCase):
         self.assertEqual(self.chains(a_0=span(0, 100), a_1=odd), [("a_0",), ("a_1",)])
 
     def test_rare_topics_may_be_missing(self):
-        """Latched at the begin of the first part; too slow for a short last part."""
+        """Latched at the start of the first part; too slow for a short last part."""
         self.assertEqual(self.chains(a_0=span(0, 100, imu=1000, tf_static=1, fix=100), a_1=span(100, 102, imu=20)),
                          [("a_0", "a_1")])
 
@@ -201,7 +201,7 @@ class GroupsTest(unittest.TestCase):
         self.assertEqual(section.data["real"]["groups"]["soft"]["intervals_s"], [5.0, 7.0, 6.0])
         self.assertIsNotNone(section.data["real"]["anova_p"])
         self.assertIn(groups.DOUBT, section.notes)
-        self.assertIn(f"{groups.TITLES['forecast']}: cannot be told of any group.", section.notes)
+        self.assertIn(f"{groups.TITLES['forecast']}: unknown for every group.", section.notes)
 
     def test_simulated_drives_stand_beside_and_change_no_test(self):
         grounds = {"firm": members("f", 2), "soft": members("s", 2)}
@@ -222,13 +222,13 @@ class GroupsTest(unittest.TestCase):
         grounds = {"firm": members("f", 2)}
         outcomes = dict(zip(grounds["firm"], (evaluated(StopTimes((), (), 60.0)), evaluated(StopTimes((9.0,), (), 60.0)))))
         section = groups.sections_of(grounds, outcomes)["intervals"]
-        self.assertIn(f"{groups.TITLES['real']}, firm: not to be told of f0, which have no two stops.", section.notes)
+        self.assertIn(f"{groups.TITLES['real']}, firm: unknown for f0, which have no two stops.", section.notes)
         self.assertTrue(any("nothing to compare" in note for note in section.notes))
 
     def test_without_truth_the_errors_cannot_be_told(self):
         drives = members("a", 1)
         sections = groups.sections_of({"a": drives}, {drives[0]: evaluated(StopTimes((), (), 0.0), enu_error_pct=None)})
-        self.assertIn("a: no error can be told of a0, for want of truth.", sections["accuracy"].notes)
+        self.assertIn("a: no errors for a0: no truth.", sections["accuracy"].notes)
         self.assertEqual(sections["intervals"].tables, [])
 
 
@@ -323,7 +323,7 @@ class ProgramTest(FolderTest):
         self.executable("drives/d.mcap", "")
         result = self.run_program(bags[0], "drives")
         self.assertEqual([line.split()[0] for line in result.stdout.splitlines()[2:]][:4], ["b", "a", "c", "b:"])
-        self.assertIn("evaluate: drives/d.mcap is left out: a recording of ROS 2; convert it", result.stderr)
+        self.assertIn("evaluate: drives/d.mcap is skipped: a ROS 2 recording; convert it", result.stderr)
 
     def test_figures_of_the_file_have_all_their_digits(self):
         self.run_program("--out", "out", *self.bags("one", "threes"))
@@ -355,7 +355,7 @@ class ProgramTest(FolderTest):
     def test_what_is_killed_is_run_once_more(self):
         result = self.run_program(*self.bags("one", "lost", "lost_again"))
         self.assertEqual(result.returncode, 1)
-        self.assertIn("lost: evaluate was killed; it is run again\n", result.stderr)
+        self.assertIn("lost: evaluate was killed; it is rerun\n", result.stderr)
         self.assertIn("lost: consistent", result.stdout)
         self.assertIn("failed: evaluate was killed", result.stdout)
         self.assertEqual(sum("lost_again" in call for call in self.read("calls").splitlines()), 2)
@@ -376,10 +376,10 @@ class ProgramTest(FolderTest):
         bags = self.bags("one", "two")
         os.makedirs(self.path("empty"))
         for arguments, words in ((["--sepparate"], "unknown option '--sepparate', did you mean '--separate'?"),
-                                 (["--report"], "--report needs --out"), (["--odometry", "x"], "for one recording alone"),
+                                 (["--report"], "--report needs --out"), (["--odometry", "x"], "for a single recording"),
                                  (["--group", "x"], "'x' is not NAME=GLOB"), (["--group", "x=y*"], "in the group 'x'"),
                                  (["--config"], "--config needs a value"), (["--out"], "--out needs a value"),
-                                 (["--simulated", "one.bag"], "'one.bag' is no tables.json of ./run tables"),
+                                 (["--simulated", "one.bag"], "'one.bag' is not a tables.json of ./run tables"),
                                  (["empty"], "no recording (*.bag) in the folder 'empty'"), (["--jobs", "0"], "--jobs")):
             result = self.run_program(*bags, *arguments)
             self.assertEqual((result.returncode, result.stdout), (2, ""), arguments)
@@ -547,7 +547,7 @@ class ClusterTest(DrivesTest):
         output, errors = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 0, errors)
         self.assertRegex(errors, r"worker tcp://127\.0\.0\.1:\d+ is lost, [12] left\n")
-        self.assertEqual(errors.count("its worker was lost; it is run again"), 1, errors)
+        self.assertEqual(errors.count("its worker was lost; it is rerun"), 1, errors)
         self.assertEqual(len(self.read("calls").splitlines()), len(self.bags) + 1)
         here = self.run_program("--out", "here", *self.bags)
         self.assertEqual(output, here.stdout)

@@ -116,7 +116,7 @@ class CsvTest(ImportTestCase):
         self.assertEqual(imu.orientation_covariance[0], -1.0)
         self.assert_xyz(imu.angular_velocity, [10 * DEG, -20 * DEG, 30.0])
         self.assert_xyz(imu.linear_acceleration, [G, -0.5e-3 * G, 0.25])
-        self.assertIn("imu.csv: 1 row with NaN or empty fields left out, the first in line 3", self.said)
+        self.assertIn("imu.csv: 1 row with NaN or empty fields skipped, the first in line 3", self.said)
 
     def test_units_of_time(self):
         for unit, text in (("s", "1600000000.123456789"), ("ms", "1600000000123.456789"), ("us", "1600000000123456.789"),
@@ -223,7 +223,7 @@ class StampsTest(ImportTestCase):
     def test_a_row_that_is_cut_off_at_the_end_is_left_out(self):
         self.write("imu.csv", IMU + "1600000002.00,0.1,0.2")
         self.assertEqual(len(self.imported("--imu", "imu.csv")["/imu/data"]), 200)
-        self.assertIn("imu.csv:202: the last row is cut off: left out", self.said)
+        self.assertIn("imu.csv:202: the last row is cut off: skipped", self.said)
 
 
 class RefusalTest(ImportTestCase):
@@ -236,7 +236,7 @@ class RefusalTest(ImportTestCase):
         for text, wanted in (
                 ("", "imu.csv: is empty"),
                 ("# nothing\n", "imu.csv: has no rows"),
-                ("t,wx,wy,wz,ax,ay,az\n", "imu.csv: has no row that can be used"),
+                ("t,wx,wy,wz,ax,ay,az\n", "imu.csv: has no usable row"),
                 ("t,wx,wy,wz,ax,ay,az\n" + row + f"{T0},1,2\n" + row, "imu.csv:3: 3 fields instead of 7"),
                 ("t,wx,wy,wz,ax,ay,az\n" + row + f"{T0},1,2,3,4,5,6,7\n", "imu.csv:3: 8 fields instead of 7"),
                 ("t,wx,wy,wz,ax,ay,az\n" + row + f"{T0},1,2,x3,4,5,6\n", "imu.csv:3: 'x3' in column 'wz' is not a number"),
@@ -246,7 +246,7 @@ class RefusalTest(ImportTestCase):
                 ("t,wx,wy,wz,ax,ay,az\n0,1,2,3,4,5,6\n", "imu.csv:2: the stamp is 0.000000000 s"),
                 ("t,wx,wy,wz,ax,ay,az\n1e18,1,2,3,4,5,6\n", "beyond what ROS counts: is the unit of t right?"),
                 ("t,wx,wy,wz,ax,ay\n1,1,2,3,4,5\n", "imu.csv has no column 'az'; it has t, wx, wy, wz, ax, ay"),
-                ("1,1,2,3,4,5,6\n", "imu.csv has no line that names its columns"),
+                ("1,1,2,3,4,5,6\n", "imu.csv has no header line"),
                 ("t,wx,wy,wz,ax,ay,ay\n1,1,2,3,4,5,6\n", "imu.csv has 2 columns 'ay'"),
                 ("t [fortnights],wx [rpm],wy,wz,ax,ay,az\n1,1,2,3,4,5,6\n", "wx: unit 'rpm' is not one of rad/s, deg/s"),
                 ("t\0", "imu.csv: is not a text file")):
@@ -259,8 +259,8 @@ class RefusalTest(ImportTestCase):
                 ("t=t,wx=wx[m/s]" + rest, "wx: unit 'm/s' is not one of rad/s, deg/s"),
                 ("t=t" + rest, "--imu-columns: lacks wx"),
                 ("t=t,wx=wx,vx=wx" + rest, "'vx' is not one of t, wx, wy, wz, ax, ay, az"),
-                ("t=t,wx=wx,wx=wx" + rest, "'wx' comes twice"),
-                ("t=t,wx=#9" + rest, "imu.csv has 7 columns, and no #9"),
+                ("t=t,wx=wx,wx=wx" + rest, "'wx' is given twice"),
+                ("t=t,wx=#9" + rest, "imu.csv has 7 columns, but no #9"),
                 ("t=t,wx" + rest, "'wx' is not KEY=COLUMN[UNIT]"),
                 ("t=t,wx=[rad/s]" + rest, "names no column")):
             self.assertIn(wanted, self.imu(IMU, "--imu-columns", columns), columns)
@@ -286,9 +286,9 @@ class RefusalTest(ImportTestCase):
         self.write("t.csv", f"t,lat,lon,h\n{T0},-179.9,39.6,250\n")
         self.assertIn("t.csv:2: latitude or longitude is out of range", self.refused("--imu", "imu.csv", "--truth", "t.csv"))
         self.write("t.csv", "t,lat,lon,h\n1500000000,39.6,-79.9,250\n")
-        self.assertIn("t.csv and imu.csv have no time in common", self.refused("--imu", "imu.csv", "--truth", "t.csv"))
+        self.assertIn("t.csv and imu.csv do not overlap in time", self.refused("--imu", "imu.csv", "--truth", "t.csv"))
         self.write("t.tum", f"{T0} 1 2 3 1 1 1 1\n")
-        self.assertIn("t.tum:1: the quaternion has not the length 1", self.refused("--imu", "imu.csv", "--truth", "t.tum"))
+        self.assertIn("t.tum:1: the quaternion does not have length 1", self.refused("--imu", "imu.csv", "--truth", "t.tum"))
 
     def test_other_arguments(self):
         self.write("imu.csv", IMU)
@@ -296,7 +296,7 @@ class RefusalTest(ImportTestCase):
         self.write("list.yaml", "[1, 2]\n")
         self.write("empty/readme", "")
         for arguments, wanted in ((["x.yaml"], "x.yaml: unknown key 'imuu'; did you mean imu?"),
-                                  (["list.yaml"], "list.yaml: holds no keys"),
+                                  (["list.yaml"], "list.yaml: has no keys"),
                                   (["missing.yaml"], "missing.yaml: cannot be read"),
                                   (["empty"], "empty: is neither KITTI raw"),
                                   (["--truth", "imu.csv"], "has no column 'lat'"),
@@ -338,14 +338,14 @@ class KittiTest(ImportTestCase):
         messages = self.imported("drive", "--oxts-speed")
         self.assertEqual(messages["/wheel_odometry"][0][1].twist.twist.linear.x, 3.5)
         self.assertEqual(messages["/wheel_odometry"][0][1].child_frame_id, "oxts_speed")
-        self.assertIn("speed of its inertial and satellite navigation, not of wheels", self.printed)
+        self.assertIn("speed from its inertial and satellite navigation, not from wheels", self.printed)
 
     def test_what_is_missing_is_named(self):
         self.make(interval_ms=100)
         os.remove(self.path("drive/oxts/data/0000000001.txt"))
         self.assertEqual(len(self.imported("drive/oxts")["/imu/data"]), 2)
-        self.assertIn("1 file of 3 stamps not there: left out", self.said)
-        self.assertIn("the IMU has 5.0 Hz, and slipnav wants 20 or more", self.said)
+        self.assertIn("1 file of 3 stamps missing: skipped", self.said)
+        self.assertIn("the IMU has 5.0 Hz, and slipnav needs 20 or more", self.said)
         os.remove(self.out)
         self.write("drive/oxts/data/0000000002.txt", "1 2 3")
         self.assertIn("0000000002.txt:1: 3 fields instead of 30", self.refused("drive"))
@@ -418,8 +418,8 @@ accelerometer_random_walk: 3.0e-3
         self.imported("seq")
         self.assertIn("has 200.0 Hz, and sensor.yaml says 400 Hz", self.said)
         os.remove(self.out)
-        for text, wanted in (("T_BS: {data: [1, 2]}\n", "T_BS is no matrix of 4 x 4"),
-                             ("T_BS: {data: [2,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}\n", "T_BS holds no rotation"),
+        for text, wanted in (("T_BS: {data: [1, 2]}\n", "T_BS is not a matrix of 4 x 4"),
+                             ("T_BS: {data: [2,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}\n", "T_BS does not contain a rotation"),
                              ("rate_hz: fast\n", "rate_hz is not a number"), ("a: b: c\n", "is not YAML")):
             self.write("seq/mav0/imu0/sensor.yaml", text)
             self.assertIn(wanted, self.refused("seq"))
@@ -451,8 +451,8 @@ class RtklibTest(ImportTestCase):
         self.assert_close([fix.latitude, fix.longitude, fix.altitude], [39.6, -79.9, 250])
         self.assert_close(fix.position_covariance, [4e-4, -1e-4, 0, -1e-4, 1e-4, 0, 0, 0, 9e-4])
         self.assertEqual([message.status.status for _, message in fixes[:3]], [2, 2, 0])
-        self.assertIn("X.POS: rows of quality 0, without a solution: 1 left out", self.said)
-        self.assertIn("X.POS: rows far off the rows about them: 1 left out", self.said)
+        self.assertIn("X.POS: rows of quality 0, without a solution: 1 skipped", self.said)
+        self.assertIn("X.POS: rows far off their neighbors: 1 skipped", self.said)
         fixes = self.imported("--imu", "imu.csv", "--gps", "X.POS")["/gps/fix"]
         self.assertEqual(len(fixes), 11)  # the filter judges its fixes itself
 
@@ -487,7 +487,7 @@ class OtherRecordingsTest(ImportTestCase):
 
     def test_a_bag_needs_no_import(self):
         self.write("a.bag", "")
-        self.assertIn("is a recording already", self.refused("a.bag"))
+        self.assertIn("is already a recording", self.refused("a.bag"))
 
 
 @unittest.skipUnless(os.access(os.path.join(PROGRAMS, "evaluate"), os.X_OK), "needs slipnav's programs")
@@ -564,7 +564,7 @@ class DriveTest(ImportTestCase):
         self.export_all()
         self.write("truth.pos", self.pos_text())
         self.import_all("--truth", "truth.pos")
-        self.assertIn("truth.pos: rows far off the rows about them: 1 left out", self.said)
+        self.assertIn("truth.pos: rows far off their neighbors: 1 skipped", self.said)
         self.assert_same(self.evaluated(self.out), self.evaluated(self.drive, "--truth", self.path("truth.pos")))
 
     def pos_text(self):

@@ -30,14 +30,16 @@ import numpy as np  # noqa: E402
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
-from slipnav_report import filter_health, forecasts, interactive, page, palette, tracks  # noqa: E402
+from slipnav_report import (  # noqa: E402
+    filter_health, forecasts, interactive, page, palette, stop_picture, tracks,
+)
 from slipnav_report.run_data import MOST_POINTS, RunData, read_tum, single_forecasts, thinned  # noqa: E402
 
 MOST_BYTES = 6_000_000
 MOST_BYTES_OF_PICTURES = 1_500_000
 MOST_SECONDS = 60.0  # for a drive of a minute on a machine that is busy; see doc/visualisation.md for what it takes
 THRESHOLD_M = 0.8
-LEAST_PIXELS = 30  # of pure colour; the edges of lines are blended
+LEAST_PIXELS = 30  # of pure color; the edges of lines are blended
 
 
 def write_forecasts(directory, start):
@@ -50,10 +52,10 @@ def write_forecasts(directory, start):
                 out.writerow([start + made, horizon, 0.02 * horizon, THRESHOLD_M / 0.02])
     with open(os.path.join(directory, "slip_forecasts.csv"), "w", newline="", encoding="ascii") as file:
         out = csv.writer(file)
-        out.writerow(["t", "horizon_s", "mean", "stddev"])
+        out.writerow(["t", "horizon_s", "mean", "stddev", "wheel_speed", "wheel_speed_above", "wheel_speed_below"])
         for made in range(10, 40):
             for horizon in np.arange(1, 11):
-                out.writerow([start + made, horizon, 0.1, 0.05])
+                out.writerow([start + made, horizon, 0.1, 0.05, 0.9, 0.95, 0.86])
 
 
 def curve(axes, label):
@@ -141,7 +143,7 @@ class ReportTest(unittest.TestCase):
         (track,) = self.panels("track")
         self.assertTrue(track["track"])
         for name, table, keys in (("estimate", line, ("est_e", "est_n")), ("truth", self.run_data.truth, ("e", "n")),
-                                  ("wheels and gyro alone", self.run_data.wheel_track, ("east", "north"))):
+                                  ("wheels and gyro only", self.run_data.wheel_track, ("east", "north"))):
             for got, key in zip(self.values(track, name), keys):
                 np.testing.assert_allclose(got, table[key], atol=6e-4, err_msg=name)
         for panel, error, axis in zip(self.panels("errors"), self.run_data.errors(), "enu"):
@@ -204,7 +206,7 @@ class ReportTest(unittest.TestCase):
         reasons = [getattr(axes, "empty", "") for draw in (forecasts.predicted_and_realised, filter_health.consistency)
                    for axes in draw(run).axes]
         self.assertEqual(reasons, ["no forecast and no truth", "no forecast, no countdown", "", "", "", "", "",
-                                   "no stop, or none that was used", "no truth in this recording", ""])
+                                   "no stop, or none was used", "no truth in this recording", ""])
 
     def test_legends_cover_no_curve(self):
         for name, _, draw in page.FIGURES:
@@ -262,7 +264,7 @@ class ReportTest(unittest.TestCase):
 
     def test_ground_track(self):
         axes = tracks.ground_track(self.run_data).axes[0]
-        for label in ("estimate", "smoothed", "truth", "wheels and gyro alone"):
+        for label in ("estimate", "smoothed", "truth", "wheels and gyro only"):
             east, north = curve(axes, label).get_data()
             self.assertGreater(len(east), 100)
             self.assertGreater(np.ptp(east) + np.ptp(north), 20.0, label)
@@ -301,6 +303,46 @@ class ReportTest(unittest.TestCase):
         self.assertAlmostEqual(curve(error, f"ε = {THRESHOLD_M:g} m").get_ydata()[0], THRESHOLD_M, places=6)
         self.assertEqual(len(countdown.get_lines()[0].get_xdata()), 30)
         self.assertAlmostEqual(countdown.get_lines()[0].get_ydata()[0], 40.0)
+
+    def test_figure_of_a_stop_holds_its_forecast(self):
+        run = self.run_data
+        stops = run.stops()
+        self.assertGreaterEqual(len(stops), 2)
+        stop = stop_picture.Stop(run, 2)
+        self.assertEqual((stop.begin, stop.driving_since), (stops[1][0], stops[0][1]))
+        made = np.unique(run.forecasts["t"])
+        self.assertEqual(stop.forecast, made[made >= stop.driving_since][0])  # all of them announce a stop
+        speeds, slip, wheels, error = stop_picture.stop_figure(run, 2).axes
+        x, y = curve(error, "predicted bound").get_data()
+        np.testing.assert_allclose(y, 0.02 * (x - stop.forecast), atol=1e-6)
+        x, y = curve(error, f"stop due after {THRESHOLD_M / 0.02:.1f} s").get_data()
+        np.testing.assert_allclose(x, stop.forecast + THRESHOLD_M / 0.02, atol=1e-6)
+        x, y = curve(error, "error grown since the last stop").get_data()
+        self.assertEqual((x[0] >= stop.driving_since, y[0]), (True, 0.0))
+        self.assertGreater(y.max(), 0.0)
+        np.testing.assert_allclose(curve(wheels, "of the mean slip").get_ydata(), 0.9)
+        low, high = next(patch.band for patch in wheels.collections if hasattr(patch, "band"))[1:]
+        np.testing.assert_allclose((low[0], high[0]), (0.86, 0.95))
+        np.testing.assert_allclose(curve(slip, "predicted mean").get_ydata(), 0.1)
+        np.testing.assert_allclose(curve(speeds, "filter").get_ydata(), run.timeline["speed"])
+
+    def test_announcement_is_the_begin_of_what_announces_the_stop(self):
+        due = np.array([np.nan, 30.0, np.nan, 20.0, 19.0, 18.0])
+        table = {"t": np.arange(6.0), "time_to_stop_s": due}
+        self.assertEqual(stop_picture.announcement(table, 0.0, 6.0), 3.0)
+        self.assertEqual(stop_picture.announcement(table, 1.0, 3.0), 2.0)  # none does: the last one
+        self.assertIsNone(stop_picture.announcement(table, 6.0, 9.0))
+
+    def test_stop_that_there_is_not_is_refused(self):
+        program = os.path.join(ROOT, "scripts", "plot_report.py")
+        count = len(self.run_data.stops())
+        for number in (0, count + 1):
+            result = subprocess.run([program, self.directory, "--figure", str(number)], capture_output=True, text=True,
+                                    check=False)
+            self.assertEqual((result.returncode, result.stderr),
+                             (1, f"plot_report: there is no stop {number}: the drive has {count}\n"))
+        subprocess.run([program, self.directory, "--figure", "1"], check=True)
+        self.assertEqual(matplotlib.image.imread(os.path.join(self.directory, "stop_1.png")).shape[2], 4)
 
     def test_velocity(self):
         axes = filter_health.velocity(self.run_data).axes[0]

@@ -4,6 +4,7 @@
 The environment names the executable: SLIPNAV_SIMULATE.
 """
 
+import html
 import json
 import os
 import shutil
@@ -74,7 +75,7 @@ def outcome(stop_rate_pct=0.0, enu_error_pct=0.0, stretches=(), time_to_stop_s=N
 
 
 class PaperTest(unittest.TestCase):
-    """Each figure is rounded: percentages and metres to 0.01, distances to 1 m."""
+    """Each figure is rounded: percentages and meters to 0.01, distances to 1 m."""
 
     @staticmethod
     def rounding_pct(pct, distance_m):
@@ -133,7 +134,7 @@ class StatisticsTest(unittest.TestCase):
 
     def test_text_of_p(self):
         self.assertEqual([statistics.p_text(p) for p in (None, 0.00009, 0.0049)],
-                         ["cannot be told", "< 0.0001", "0.0049"])
+                         ["unknown", "< 0.0001", "0.0049"])
 
 
 class ReadingTest(unittest.TestCase):
@@ -238,17 +239,19 @@ class ProgramTest(unittest.TestCase):
     def test_failed_drive_is_named_and_counted(self):
         result = self.run_program(self.fake(), "--only", "table1", "--seeds", "3")
         self.assertEqual(result.returncode, 1)
-        failed = f"{len(paper.TABLE_1)} of {3 * len(paper.TABLE_1)} drives failed"
+        failed = f"{2 * len(paper.TABLE_1)} of {6 * len(paper.TABLE_1)} drives failed"
         for text in (result.stdout, self.read("tables.md"), self.read("tables.html")):
             self.assertIn(failed, text)
             self.assertIn("rough 152 m autonomous ε 2 m seed 2: simulate: the wheels fell off", text)
-            self.assertIn("simulated, 2 drives", text)
+            self.assertIn("slipnav, 2 drives", text)
+            self.assertIn("rough 152 m autonomous ε 2 m paper.yaml seed 2: simulate: the wheels fell off", text)
+            self.assertIn("the paper's method, 2 drives", html.unescape(text))
 
     def test_cells_are_median_and_worst(self):
         self.run_program(self.fake(), "--only", "table2", "--seeds", "3")
         data = json.loads(self.read("tables.json"))["sections"]["table2"]["Rough_A"]
         self.assertEqual(data["enu_error_pct"], {"median": 0.2, "worst": 0.3})
-        row = next(line for line in self.read("tables.md").splitlines() if "| simulated, 2 drives" in line)
+        row = next(line for line in self.read("tables.md").splitlines() if "| slipnav, 2 drives" in line)
         self.assertEqual([cell.strip() for cell in row.split("|")][4:9],
                          ["151", "200 (200)", "0.20 (0.30)", "5.00 (5.00)", "2 (3)"])
 
@@ -269,7 +272,7 @@ class ProgramTest(unittest.TestCase):
         with open(self.log, encoding="utf-8") as file:
             calls = [line.split(" --out ")[0] for line in file]
         self.assertEqual(len(calls), len(set(calls)))
-        self.assertEqual(len(calls), len(paper.TABLE_1) + len(paper.TABLE_2) - 1)  # Rough_B is Test5
+        self.assertEqual(len(calls), 2 * (len(paper.TABLE_1) + len(paper.TABLE_2) - 1))  # Rough_B is Test5
 
     def test_interruption_ends_the_drives(self):
         for number in (signal.SIGINT, signal.SIGTERM):
@@ -303,7 +306,7 @@ class ProgramTest(unittest.TestCase):
         result = self.run_program(os.environ["SLIPNAV_SIMULATE"], "--only", "table2", "--seeds", "1")
         self.assertEqual(result.returncode, 0, result.stderr)
         drives = json.loads(self.read("tables.json"))["drives"]
-        self.assertEqual(len(drives), len(paper.TABLE_2))
+        self.assertEqual(len(drives), 2 * len(paper.TABLE_2))
         for entry in drives:
             self.assertAlmostEqual(entry["metrics"]["distance_m"], entry["distance_m"], delta=6.0)
             self.assertEqual(len(entry["stretches"]),

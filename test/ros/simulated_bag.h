@@ -38,7 +38,7 @@ class TemporaryBag {
   std::string path_;
 };
 
-/// Rest, straight initialisation drive, a few metres of route with a stop in them: about 45 s.
+/// Rest, straight initialization drive, a few meters of route with a stop in them: about 45 s.
 inline void writeShortDrive(const std::string& path, const Config& config, int seed = 1) {
   sim::SimulatorParams params = config.simulator;
   params.seed = seed;

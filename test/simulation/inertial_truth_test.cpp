@@ -26,7 +26,7 @@ class InertialIntegrator {
   InertialIntegrator(const Planet& planet, const Geodetic& start, const Matrix3& C_b_to_enu, const Vector3& lever_b)
       : planet_(planet), frame_(planet, start), attitude_(C_b_to_enu) {
     omega_ie_ = frame_.C_n_to_enu(start) * planet.omega_ie_n(start.latitude_rad);
-    // the start seen from the planet's centre, in the meridian plane
+    // the start seen from the planet's center, in the meridian plane
     const double normal_m = planet.transverseRadius(start.latitude_rad);
     const double f = planet.flattening();
     const double squash = (1.0 - f) * (1.0 - f);

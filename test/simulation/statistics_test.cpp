@@ -18,7 +18,7 @@ struct DriveStatistics {
   double slip_sigma = 0.0;
   double max_slip = 0.0;
   double side_slip_sigma_deg = 0.0;
-  double initial_side_slip_deg = 0.0;  ///< largest while driving straight to initialise
+  double initial_side_slip_deg = 0.0;  ///< largest while driving straight to initialize
   double initial_slip = 0.0;           ///< mean over the same
   double dead_reckoning_pct = 0.0;     ///< final error of two-dimensional wheel odometry over the distance
 };

@@ -66,8 +66,8 @@ class AnalyticMotion {
   Wave height_m_;
 };
 
-/// Mechanises the motion's own IMU over intervals that end at `ends_s`, from the true state at time zero.
-/// @param start_s where the interval before the first begins; the mechanisation knows it as previous interval
+/// Mechanizes the motion's own IMU over intervals that end at `ends_s`, from the true state at time zero.
+/// @param start_s where the interval before the first begins; the mechanization knows it as previous interval
 NavigationState mechanise(const AnalyticMotion& motion, const std::vector<double>& ends_s, double start_s);
 
 /// The same over regular intervals.

@@ -116,7 +116,7 @@ DriveResult runDrive(const Config& config, const std::string& policy, const Dist
     }
   });
   if (!pipeline.initial()) {
-    throw std::runtime_error("not initialised: " + pipeline.initializer().progress());
+    throw std::runtime_error("not initialized: " + pipeline.initializer().progress());
   }
   judge.finish();
   for (int i = 0; i < kComponents; ++i) {

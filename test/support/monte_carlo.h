@@ -12,7 +12,7 @@
 
 namespace slipnav::test {
 
-/// Squared normalised errors at one epoch, three degrees of freedom each.
+/// Squared normalized errors at one epoch, three degrees of freedom each.
 struct Nees {
   double attitude = 0.0;
   double velocity = 0.0;
@@ -20,7 +20,7 @@ struct Nees {
 };
 
 struct DriveResult {
-  std::vector<Nees> by_minute;  ///< at 60 s, 120 s, … after the initialisation
+  std::vector<Nees> by_minute;  ///< at 60 s, 120 s, … after the initialization
   std::array<ComponentStatus, kComponents> components;
   double enu_error_pct = 0.0;
   double final_error_pct = 0.0;  ///< horizontal
@@ -32,7 +32,7 @@ struct DriveResult {
 
 /// What happens to the sensors during a drive.
 struct Disturbance {
-  double begin_s = 0.0;       ///< after the initialisation
+  double begin_s = 0.0;       ///< after the initialization
   double imu_gap_s = 0.0;     ///< the IMU is silent for so long
   double wheel_gap_s = 0.0;   ///< the wheels are silent for so long
   double clock_jump_s = 0.0;  ///< all stamps are later by this from then on

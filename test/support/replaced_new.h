@@ -17,7 +17,7 @@ void* allocate(std::size_t size) {
 
 }  // namespace
 
-// All of them: a sanitizer brings its own for those left out, and takes their memory given to another's delete as a
+// All of them: a sanitizer brings its own for those not replaced, and takes their memory given to another's delete as a
 // mismatch.
 void* operator new(std::size_t size) { return allocate(size); }
 void* operator new[](std::size_t size) { return allocate(size); }

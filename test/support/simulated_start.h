@@ -1,5 +1,5 @@
 #pragma once
-/// Simulated starts: rest and a straight drive under satellite positions, through the initialisation alone.
+/// Simulated starts: rest and a straight drive under satellite positions, through the initialization alone.
 
 #include <limits>
 #include <optional>

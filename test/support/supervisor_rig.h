@@ -49,7 +49,7 @@ class Rig {
     }
   }
 
-  void forecast(double time_to_stop_s) { supervisor.setForecast({stamp, time_to_stop_s}); }
+  void forecast(double time_to_stop_s, double kept_s = 0.0) { supervisor.setForecast({stamp, time_to_stop_s, kept_s}); }
   StopState state() const { return supervisor.status().state; }
   VelocityCommand drive() { return supervisor.command(driveOn()); }
 

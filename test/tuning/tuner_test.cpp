@@ -72,7 +72,7 @@ TEST(TuningKnobTest, zeroIsMeant) {
 TEST(TuningKnobTest, someOnly) {
   EXPECT_EQ(tuningKnobs(Config{}, {"wheel.slip_noise_std", "wheel.stamp_delay_s"}).size(), 2U);
   EXPECT_EQ(messageOf<std::invalid_argument>([] { tuningKnobs(Config{}, {"wheel.speed_std"}); }),
-            "'wheel.speed_std' is nothing that is tuned, did you mean 'wheel.speed_std_mps'?");
+            "'wheel.speed_std' cannot be tuned, did you mean 'wheel.speed_std_mps'?");
 }
 
 constexpr double kNoise_mps = 0.04;

@@ -7,18 +7,18 @@
 
 namespace slipnav {
 
-/// Writes `path + ".part"` and moves it to `path` on commit(). Dropped without commit(), it leaves `path` as it was.
+/// Writes `path + ".part"` and moves it to `path` on commit(). Destroyed without commit(), it leaves `path` unchanged.
 class AtomicFile {
  public:
-  /// Throws std::runtime_error naming the path when the file cannot be opened.
+  /// Throws std::runtime_error naming the path if the file cannot be opened.
   explicit AtomicFile(const std::string& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Takes text in the classic locale.
+  /// Accepts text in the classic locale.
   std::ostream& stream() { return file_; }
-  /// Throws std::runtime_error naming the path when something could not be written.
+  /// Throws std::runtime_error naming the path if something could not be written.
   void commit();
 
  private:
@@ -28,7 +28,7 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Creates a directory and its parents. Throws std::runtime_error naming the path when that is not possible.
+/// Creates a directory and its parents. Throws std::runtime_error naming the path if that is not possible.
 void createDirectories(const std::string& path);
 
 }  // namespace slipnav

@@ -1,19 +1,19 @@
 #pragma once
-/// Whether something that keeps coming has stopped.
+/// Whether something that arrives regularly has stopped.
 
 #include <optional>
 
 namespace slipnav {
 
-/// Two clocks have to agree on the silence: the ROS clock, which a recording or simulation may run fast or slowly, and
-/// one of real time, against which the ROS clock may lag and then jump.
+/// Two clocks must agree on the silence: the ROS clock, which a recording or simulation may run fast or slowly, and
+/// one of real time, since the ROS clock may lag behind and then jump.
 class SilenceWatch {
  public:
   explicit SilenceWatch(double limit_s) : limit_s_(limit_s) {}
 
   void setLimit(double limit_s) { limit_s_ = limit_s; }
 
-  /// One instant by both clocks.
+  /// One instant on both clocks.
   struct Now {
     double ros_s;
     double real_s;
@@ -21,7 +21,7 @@ class SilenceWatch {
 
   void heard(const Now& now) { last_ = now; }
   bool hasHeard() const { return last_.has_value(); }
-  /// Not before something has been heard.
+  /// False until something has been heard.
   bool isSilent(const Now& now) const {
     return last_ && now.ros_s - last_->ros_s > limit_s_ && now.real_s - last_->real_s > limit_s_;
   }

@@ -10,10 +10,10 @@
 namespace slipnav {
 namespace {
 
-/// Fewer would print 50 as 5e+01.
+/// With fewer, 50 would print as 5e+01.
 constexpr int kUsualDigits = 6;
 
-/// A damaged file may have a megabyte for a name, and it would be compared with every candidate.
+/// A corrupted file may contain a name of a megabyte, which would be compared with every candidate.
 constexpr std::size_t kLongestName = 100;
 
 template <class Value>

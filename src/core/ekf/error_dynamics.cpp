@@ -26,7 +26,7 @@ Matrix3 transportRateByVelocity(double north_m, double east_m, double latitude_r
   return m;
 }
 
-/// ∂(ω_en^n)/∂(position in metres NED). The curvature's own change with latitude is below 1e-2 of these terms.
+/// ∂(ω_en^n)/∂(position in meters NED). The curvature's own change with latitude is below 1e-2 of these terms.
 Matrix3 transportRateByPosition(double north_m, double east_m, double latitude_rad, const Vector3& v) {
   const double tan_lat = std::tan(latitude_rad);
   Matrix3 m = Matrix3::Zero();
@@ -68,7 +68,7 @@ void VehicleModelParams::visit(ParameterVisitor& v) {
   v.number("slope_slip", slope_slip, {0.0, 1.0},
            "1σ of the persistent slip, and of the tangent of the side slip, per sine of the slope");
   v.number("fast_slip_std", fast_slip_std, {0.0, 1.0},
-           "1σ of the slip ratio that changes within a meter; more is learned, never less");
+           "1σ of the slip ratio that changes within a meter; larger values are learned, never smaller ones");
   v.number("fast_slip_length_m", fast_slip_length_m, {1e-2, 1e5}, "correlation length of the fast slip [m]");
   v.number("side_slip_std_deg", side_slip_std_deg, {0.0, 45.0},
            "1σ of the side-slip angle, before anything is learned [°]");
@@ -118,7 +118,7 @@ void ErrorDynamics::rollOver(const GroundStep& ground, ErrorTransition& transiti
   const auto gaussMarkov = [&](int state, double variance, double length_m) {
     const double decay = std::exp(-ground.way_m / length_m);
     transition.decay(state - 9) = decay;
-    // half of the noise goes in before the decay, see propagate(): this keeps σ² in steady state for any step
+    // half of the noise is added before the decay, see propagate(): this keeps σ² in steady state for any step
     transition.noise(state) = 2.0 * variance * (1.0 - decay * decay) / (1.0 + decay * decay);
   };
   gaussMarkov(kSlowSlip, ground.slow_slip_variance, vehicle_.slow_slip_length_m);

@@ -19,7 +19,7 @@ struct PredictedRows {
     }
   }
 
-  /// K with K L Lᵀ = P Hᵀ: substitution forwards, then backwards, for all states at once.
+  /// K with K L Lᵀ = P Hᵀ: forward, then backward substitution, for all states at once.
   KalmanGain gain() const {
     KalmanGain K = PHt;
     const auto& L = cholesky.matrixLLT();

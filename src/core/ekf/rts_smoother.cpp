@@ -7,10 +7,10 @@
 namespace slipnav {
 namespace {
 
-/// Added to correlations before they are inverted: what is smaller is rounding.
+/// Added to correlations before inversion: anything smaller is rounding.
 constexpr double kLeastEigenvalue = 1e-13;
 
-/// P Φᵀ P_next⁻¹, with each error counted in its own standard deviation. One without variance has none to pass on.
+/// P Φᵀ P_next⁻¹, with each error in units of its own standard deviation. One without variance has nothing to pass on.
 ErrorCovariance gainOf(const ErrorCovariance& P, const ErrorCovariance& transition, const ErrorCovariance& P_next) {
   const ErrorVector weight =
       P_next.diagonal().unaryExpr([](double variance) { return variance > 0.0 ? 1.0 / std::sqrt(variance) : 0.0; });
@@ -41,7 +41,7 @@ void RtsSmoother::append(const Link& link) {
   open_.gain = (open_.gain * link.gain).eval();
 }
 
-/// The rest in the form that holds for any gain, and is never negative.
+/// The remainder in the form that holds for any gain, and is never negative.
 void RtsSmoother::advance(const ErrorCovariance& P) {
   if (P == P_ && transition_.isIdentity(0.0)) {
     return;

@@ -13,27 +13,27 @@ constexpr std::size_t kRingSize = 2048;  // two seconds at the highest IMU rate
 constexpr double kRestMemory_s = 10.0;
 constexpr double kDriveMemory_s = 5.0;
 constexpr double kLevelKnown_s = 1.0;
-/// How far scatter at rest may be above what it has been, in standard deviations of the sensor.
+/// How far scatter at rest may be above its previous level, in standard deviations of the sensor.
 constexpr double kRestFactor = 3.0;
-/// Rest is at least so much calmer than driving.
+/// Rest is at least this much calmer than driving.
 constexpr double kCalmerThanDriving = 3.0;
 constexpr double kStillCalmer = 1.5;
-/// Before the wheels have ever turned, and before any rest is known: an engine may run.
+/// Before the wheels have ever turned, and before any rest is known: an engine may be running.
 constexpr double kBeforeDriving = 6.0;
 constexpr double kNoiseFactor = 2.0;
 constexpr double kBiasSigmas = 4.0;
 constexpr double kForceTolerance_mps2 = 0.05;
 constexpr double kRateTolerance_radps = 0.1 * kPi / 180.0;
-/// Largest speed that noise of the encoders may have at rest.
+/// Largest speed that encoder noise may show at rest.
 constexpr double kLargestRestSpeed_mps = 0.005;
 
 }  // namespace
 
 void StationaryParams::visit(ParameterVisitor& v) {
   v.number("window_s", window_s, {0.02, 2.0}, "length of the IMU's test window [s]");
-  v.number("hold_off_s", hold_off_s, {0.0, 10.0}, "how long the wheels must have rested before it counts [s]");
+  v.number("hold_off_s", hold_off_s, {0.0, 10.0}, "how long the wheels must have been at rest [s]");
   v.number("wheel_speed_mps", wheel_speed_mps, {0.0, 1.0},
-           "highest circumferential speed of a wheel at rest, unless its noise is learned to be larger [m/s]");
+           "highest circumferential speed of a wheel at rest, unless larger noise is learned [m/s]");
   v.number("accel_std_mps2", accel_std_mps2, {1e-6, 10.0},
            "largest scatter of the specific force at rest, 1σ of each axis, before it is learned [m/s²]");
   v.number("gyro_std_deg_per_s", gyro_std_deg_per_s, {1e-6, 100.0}, "likewise of the angular rate [°/s]");
@@ -83,7 +83,7 @@ StationaryDetector::Window StationaryDetector::window() const {
   }
   const Nanoseconds newest = ring_[(head_ + kRingSize - 1) % kRingSize].stamp;
   const Nanoseconds begin = newest - fromSeconds(params_.window_s);
-  const Sample& origin = ring_[(head_ + kRingSize - 1) % kRingSize];  // differences to it keep the digits
+  const Sample& origin = ring_[(head_ + kRingSize - 1) % kRingSize];  // differences to it preserve precision
   Vector3 sum_f = Vector3::Zero();
   Vector3 sum_rate = Vector3::Zero();
   double sum_f2 = 0.0;

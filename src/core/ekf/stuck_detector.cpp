@@ -6,7 +6,7 @@ namespace slipnav {
 namespace {
 
 constexpr double kHolds_s = 1.0;
-/// Of the wheels' speed, with two standard deviations of the estimate added.
+/// Of the wheel speed, with two standard deviations of the estimate added.
 constexpr double kMostSpeedKept = 1.0 / 3.0;
 constexpr double kSigmas = 2.0;
 

@@ -12,10 +12,10 @@ namespace {
 /// A share of zero would be an infinite variance.
 constexpr double kLeastShare = 1e-6;
 
-/// No step adds so much to a variance, unless the filter has opened it.
+/// No step adds this much to a variance, unless the filter has inflated it.
 constexpr double kOpened = 1.5;
 
-/// Of the velocity in direction `along_n`.
+/// Variance of the velocity in direction `along_n`.
 double varianceAlong(const Vector3& along_n, const ErrorCovariance& P) {
   return along_n.dot(P.block<3, 3>(kVelocity, kVelocity) * along_n);
 }

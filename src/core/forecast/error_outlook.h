@@ -1,5 +1,5 @@
 #pragma once
-/// What a forecast of the position error says to whoever decides about stops.
+/// A forecast of the position error, for whoever decides about stops.
 
 #include <limits>
 #include <vector>
@@ -10,14 +10,15 @@ namespace slipnav {
 
 /// One forecast of the horizontal position error.
 struct ErrorOutlook {
-  Nanoseconds stamp = 0;                   ///< when the forecast begins
+  Nanoseconds stamp = 0;                   ///< start of the forecast
   std::vector<double> times_s;             ///< ahead of the stamp, ascending
-  std::vector<double> horizontal_bound_m;  ///< bound of the horizontal position error at each of them
-  double threshold_m = 0.0;                ///< bound at which the rover shall stop
-  /// Until the bound passes the threshold [s], and the way driven until then [m]; infinite when it does not within the
-  /// horizon, zero when it is there already.
+  std::vector<double> horizontal_bound_m;  ///< bound on the horizontal position error at each of them
+  double threshold_m = 0.0;                ///< bound at which the rover is to stop
+  /// Until the bound passes the threshold [s], and the distance driven until then [m]; infinite if it does not within
+  /// the horizon, zero if it already has.
   double time_to_stop_s = std::numeric_limits<double>::infinity();
   double stop_distance_m = std::numeric_limits<double>::infinity();
+  double kept_s = 0.0;  ///< how long the forecast is valid without another one; zero if they are made all the time
 };
 
 }  // namespace slipnav

@@ -3,20 +3,23 @@
 namespace slipnav {
 
 void ForecastParams::visit(ParameterVisitor& v) {
-  v.number("threshold_m", threshold_m, {1e-3, 1e4}, "bound of the horizontal position error at which to stop [m]");
+  v.number("threshold_m", threshold_m, {1e-3, 1e4}, "bound on the horizontal position error at which to stop [m]");
   v.choice("schedule", schedule, {"sliding", "paper"},
-           "sliding: anew every interval_s on the newest window; paper: once per window, then the next window begins");
+           "sliding: every interval_s on the newest window; paper: the paper's method, one forecast per window whose "
+           "countdown is kept, see config/paper.yaml");
   v.choice("bound", bound, {"growth", "absolute"},
-           "growth: of the error since the last stop; absolute: all of it, which no stop takes back");
+           "growth: of the error since the last stop; absolute: total error, which no stop reduces");
   v.number("sigmas", sigmas, {0.5, 10.0}, "the bound in standard deviations");
   v.number("window_s", window_s, {1.0, 600.0}, "how much free driving the slip model learns from [s]");
   v.number("interval_s", interval_s, {0.1, 60.0}, "time between forecasts, in stamps [s]");
   v.number("horizon_s", horizon_s, {1.0, 600.0}, "how far to forecast [s]");
   v.number("step_s", step_s, {0.02, 5.0}, "between simulated wheel measurements [s]");
   v.number("wheel_interval_s", wheel_interval_s, {0.001, 1.0}, "between real ones [s]");
-  v.number("max_age_s", max_age_s, {1.0, 3600.0}, "older slip is left out of the window, after a long stop [s]");
+  v.number("max_age_s", max_age_s, {1.0, 3600.0}, "older slip is dropped from the window, after a long stop [s]");
+  v.number("paper_window_m", paper_window_m, {0.1, 1e4},
+           "with schedule: paper, the window is full after this much driving, or after window_s [m]");
   v.number("speed_window_s", speed_window_s, {0.1, 600.0},
-           "the speed to come is the mean over so much of driving, without starts and stops [s]");
+           "the future speed is the mean over this much driving, without starts and stops [s]");
   slip.visit(v);
   v.group("sigma_points", sigma_points, "from slip to wheel speed");
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What can be configured about forecasts.
+/// Configuration of forecasts.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace slipnav {
 
 /// Block `forecast`.
 struct ForecastParams {
-  /// The slip model that forecasts best, see doc/forecast.md; a model on its own is the paper's.
+  /// The slip model that forecasts best, see doc/forecast.md; a model on its own defaults to the paper's.
   ForecastParams() {
     slip.model = "rbf_slow";
     slip.inference = "state_space";
@@ -27,14 +27,12 @@ struct ForecastParams {
   double step_s = 0.5;
   double wheel_interval_s = 0.1;
   double max_age_s = 60.0;
+  double paper_window_m = 12.0;
   double speed_window_s = 3.0;
   SlipModelParameters slip;
   SigmaPointParameters sigma_points;
 
   void visit(ParameterVisitor& v);
-
-  /// Whether slip errors enter the covariance as states, and not as white noise as in the paper.
-  bool correlatesSlip() const { return slip.model != "paper"; }
 };
 
 }  // namespace slipnav

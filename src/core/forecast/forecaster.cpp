@@ -13,10 +13,10 @@ namespace {
 /// Points of the horizon at which the predicted slip's correlation is sampled.
 constexpr int kCorrelationPoints = 61;
 
-/// Slower than this share of the fastest is starting or stopping.
+/// Below this share of the highest speed the rover is starting or stopping.
 constexpr double kCruisingShare = 0.7;
 
-/// Position in 0 … count − 1 that goes to and fro.
+/// Position in 0 … count − 1 that moves back and forth.
 std::size_t toAndFro(std::size_t i, std::size_t count) {
   const std::size_t period = std::max<std::size_t>(1, 2 * (count - 1));
   const std::size_t phase = i % period;
@@ -62,7 +62,7 @@ void Forecaster::reset() {
 
 std::optional<Forecast> Forecaster::push(const Estimate& estimate, const ErrorCovariance& P) {
   if (estimate.nav.stamp <= newest_) {
-    reset();  // the recording began anew
+    reset();  // the recording restarted
   }
   newest_ = estimate.nav.stamp;
   if (!estimate.has_wheels) {
@@ -109,7 +109,7 @@ bool Forecaster::collect(const Estimate& estimate) {
   }
   drive_.push_back({estimate.nav.stamp, *slip, v_x, slipAngle(estimate.motion.v_eb_b, estimate.vehicle),
                     estimate.wheel_speed_used, estimate.nav.q_b_to_n});
-  // So many intervals of driving, whatever stops lie between them.
+  // This many intervals of driving, regardless of the stops between them.
   const auto most = static_cast<std::size_t>(std::lround(params_.window_s / params_.wheel_interval_s));
   while (drive_.size() > most || toSeconds(drive_.back().stamp - drive_.front().stamp) > params_.max_age_s) {
     drive_.pop_front();
@@ -118,9 +118,6 @@ bool Forecaster::collect(const Estimate& estimate) {
 }
 
 bool Forecaster::isDue(Nanoseconds stamp) {
-  if (params_.schedule == "paper") {
-    return static_cast<double>(drive_.size()) * params_.wheel_interval_s >= params_.window_s;
-  }
   const Nanoseconds slot = stamp / fromSeconds(params_.interval_s);
   const bool due = slot != last_slot_;
   last_slot_ = slot;
@@ -128,8 +125,8 @@ bool Forecaster::isDue(Nanoseconds stamp) {
 }
 
 SlipSamples Forecaster::window() const {
-  // What the filter takes for the slip impulse of a wheel that lost its grip is not what it navigates by.
-  const bool all = !params_.correlatesSlip() || !setup_.filter.uses("wheel");
+  // The filter does not navigate by what it treats as the slip impulse of a wheel that has lost grip.
+  const bool all = !setup_.filter.uses("wheel");
   SlipSamples samples;
   for (const Drive& drive : drive_) {
     if (all || drive.wheel_speed_used) {
@@ -153,9 +150,7 @@ std::optional<Forecast> Forecaster::make(const Estimate& estimate) {
   forecast.slip =
       model_.predict(Eigen::VectorXd::LinSpaced(count, now_s + params_.wheel_interval_s, now_s + params_.horizon_s));
   forecast.slip.times_s.array() -= now_s;
-  if (params_.correlatesSlip()) {
-    forecast.correlation = summarizeCorrelation(model_, now_s, params_.horizon_s, kCorrelationPoints);
-  }
+  forecast.correlation = summarizeCorrelation(model_, now_s, params_.horizon_s, kCorrelationPoints);
   learnGround(forecast);
   weighAgainstFilter(estimate);
   forecast.outlook = outlook_;
@@ -167,13 +162,10 @@ std::optional<Forecast> Forecaster::make(const Estimate& estimate) {
     problem_ = "the forecast is not finite";
     return std::nullopt;
   }
-  if (params_.schedule == "paper") {
-    drive_.clear();
-  }
   return forecast;
 }
 
-/// Mean of the newest speeds, without those of starting and stopping: what is ahead is driven at the speed of before.
+/// Mean of the newest speeds, without starts and stops: the path ahead is assumed to be driven at the same speed.
 double Forecaster::cruisingSpeed() const {
   const auto slower = [](const Drive& a, const Drive& b) { return std::abs(a.speed_mps) < std::abs(b.speed_mps); };
   const double fastest_mps = std::abs(std::max_element(drive_.begin(), drive_.end(), slower)->speed_mps);
@@ -208,30 +200,22 @@ void Forecaster::learnGround(const Forecast& forecast) {
   learnSpeedAndSideSlip();
   const double speed_mps = std::abs(outlook_.speed_mps);
   const double mean_slip = forecast.slip.mean.mean();
-  if (!params_.correlatesSlip()) {
-    const double slip_std = forecast.slip.stddev.norm() / std::sqrt(static_cast<double>(forecast.slip.stddev.size()));
-    const WheelSpeedPrediction wheel = sigma_points_.predict(speed_mps, mean_slip, slip_std);
-    outlook_.wheel_speed_mps = std::copysign(wheel.mean_mps, outlook_.speed_mps);
-    outlook_.wheel_noise_variance = square(setup_.wheel.speed_std_mps) + wheel.variance;
-    outlook_.drift_std = outlook_.change_std = 0.0;
-    return;
-  }
   const double noise_std = std::sqrt(forecast.fit.hyperparameter("noise_variance"));
   const double slip_std = std::hypot(forecast.correlation.stddev, forecast.correlation.bias_stddev);
   const WheelSpeedPrediction wheel = sigma_points_.predict(speed_mps, mean_slip, std::hypot(slip_std, noise_std));
   outlook_.wheel_speed_mps = std::copysign(wheel.mean_mps, outlook_.speed_mps);
-  // The filter's model has the slip ratio times the wheel speed; what of the true map is steeper goes to the slip.
+  // The filter's model is the slip ratio times the wheel speed; where the true map is steeper, the slip is scaled up.
   const double steepness = wheel.mean_mps > 0.0 ? wheel.sensitivity_mps / wheel.mean_mps : 1.0;
-  // The next ground may slip less, or as much more: the mean is no better known than it is large.
+  // The next ground may slip less, or as much more: the uncertainty of the mean is at least its magnitude.
   outlook_.drift_std = steepness * std::max(forecast.correlation.bias_stddev, std::abs(mean_slip));
   outlook_.change_std = steepness * forecast.correlation.stddev;
   outlook_.change_time_s = std::max(forecast.correlation.time_constant_s, params_.wheel_interval_s);
   outlook_.wheel_noise_variance = square(setup_.wheel.speed_std_mps) + square(wheel.sensitivity_mps * noise_std);
 }
 
-/// The slip of the window is what the filter believes, and the error of its velocity is in it. So what the filter has
-/// learned of wheels and ground from its innovations is the most of what comes and goes; what persists counts as less
-/// or more than that only as far as it stands out of the velocity's error.
+/// The slip in the window is what the filter estimates, and includes its velocity error. So varying slip is at most
+/// what the filter has learned about wheels and ground from its innovations; persistent slip is taken as less or more
+/// than that only as far as it exceeds the velocity error.
 void Forecaster::weighAgainstFilter(const Estimate& estimate) {
   const GroundOutlook filter = covariance_.assumption(estimate.noise_factors);
   outlook_.change_std = std::min(outlook_.change_std, filter.change_std);
@@ -248,7 +232,7 @@ std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {
   const auto count = static_cast<std::size_t>(std::lround(params_.horizon_s / params_.step_s));
   const auto stride = static_cast<std::size_t>(std::max(1L, std::lround(params_.step_s / params_.wheel_interval_s)));
   std::vector<DriveStep> steps(count);
-  Vector3 v_before_n = open_step_.v_eb_n;  // where the covariance is; the way from there to driving counts as well
+  Vector3 v_before_n = open_step_.v_eb_n;  // where the covariance is; the path from there to driving counts as well
   for (std::size_t i = 0; i < count; ++i) {
     DriveStep& step = steps[i];
     step.state = estimate.nav;

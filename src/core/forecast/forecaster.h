@@ -1,6 +1,6 @@
 #pragma once
 /// From the filter's estimates to forecasts: the slip window, the Gaussian process, the growth of the position error
-/// and the time at which the rover shall stop.
+/// and the time at which the rover is to stop.
 ///
 ///   Forecaster forecaster(planet, setup, params);
 ///   ... after each estimate:
@@ -20,7 +20,7 @@
 
 namespace slipnav {
 
-/// One forecast with everything that it was made from.
+/// One forecast with everything it was made from.
 struct Forecast {
   SlipFit fit;
   SlipPrediction slip;          ///< times ahead of the stamp
@@ -29,7 +29,7 @@ struct Forecast {
   ErrorOutlook error;
 };
 
-/// Takes every estimate, and makes a forecast when one is due.
+/// Receives every estimate, and makes a forecast when one is due.
 class Forecaster {
  public:
   /// Throws std::invalid_argument naming a parameter that is out of range.
@@ -39,14 +39,14 @@ class Forecaster {
   /// each interval while the rover drives, once the window holds enough.
   std::optional<Forecast> push(const Estimate& estimate, const ErrorCovariance& P);
 
-  /// Takes over threshold, window, horizon and noise of the filter's measurements from the next estimate on. Slip
-  /// model, step and bound have to be those of the constructor.
+  /// Applies a new threshold, window, horizon and measurement noise from the next estimate on. Slip model, step and
+  /// bound must be those of the constructor.
   void retune(const FilterSetup& setup, const ForecastParams& params);
 
   /// Forgets everything.
   void reset();
 
-  /// Why the last forecast that was due could not be made; empty when it could.
+  /// Why the last forecast that was due could not be made; empty if it could.
   const std::string& problem() const { return problem_; }
 
  private:
@@ -59,12 +59,12 @@ class Forecaster {
     bool wheel_speed_used = true;
     Quaternion q_b_to_n = Quaternion::Identity();
   };
-  /// The step that is being driven.
+  /// The step currently being driven.
   struct OpenStep {
     Nanoseconds begin = 0;
-    Vector3 v_eb_n = Vector3::Zero();  ///< when it began
+    Vector3 v_eb_n = Vector3::Zero();  ///< at its beginning
     double samples = 0.0;
-    double used = 0.0;  ///< of the samples' wheel speeds
+    double used = 0.0;  ///< samples whose wheel speed was used
   };
 
   void follow(const Estimate& estimate, const ErrorCovariance& P);

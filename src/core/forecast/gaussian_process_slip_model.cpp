@@ -11,10 +11,10 @@
 namespace slipnav {
 namespace {
 
-// Length scales from which a cold fit starts, over the mean of the prior.
+// Initial length scales of a cold fit, relative to the mean of the prior.
 constexpr std::array<double, 3> kColdStarts = {1.0, 0.3, 3.0};
 
-// Between logarithms of hyperparameters: a scout that went farther is not believed without a look.
+// Between logarithms of hyperparameters: a scout that moved farther is checked first.
 constexpr double kFarMove = 1.0;
 
 SlipFitStatus statusOf(FitOutcome outcome) {
@@ -29,7 +29,7 @@ SlipFitStatus statusOf(FitOutcome outcome) {
   return SlipFitStatus::kDefaults;
 }
 
-// Where the posterior is highest; the last point when none of them suits the samples.
+// Where the posterior is highest; the last point if none suits the samples.
 Eigen::VectorXd bestOf(GaussianProcess& process, const std::vector<LogPrior>& priors,
                        const std::vector<Eigen::VectorXd>& points) {
   Eigen::VectorXd best = points.back();
@@ -57,7 +57,7 @@ void SlipModelParameters::visit(ParameterVisitor& v) {
   v.choice("inference", inference, {"dense", "state_space"},
            "dense: exact, cost cubic in samples; state_space: linear cost, exact but for the RBF");
   v.integer("min_samples", min_samples, {3.0, 10000.0}, "usable slip samples that a window must have");
-  v.number("slip_floor", slip_floor, {1e-9, 0.1}, "slip that varies by less than this is taken as constant");
+  v.number("slip_floor", slip_floor, {1e-9, 0.1}, "slip that varies by less than this is treated as constant");
   v.integer("max_evaluations", max_evaluations, {1.0, 10000.0}, "evaluations of the likelihood in one local fit");
   v.number("tolerance", tolerance, {1e-9, 1.0}, "change of the log posterior at which a fit ends");
   v.group("prior", prior, "priors of the hyperparameters, relative to the scale of the window");
@@ -145,7 +145,7 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::search(const SlipWind
   return choice;
 }
 
-// Where the dense fit goes on. Far from noise and at long length scales the scout's RBF is another one than the dense,
+// Where the dense fit continues. Far from noise and at long length scales the scout's RBF differs from the dense one,
 // and can lead away from where the last dense fit ended.
 Eigen::VectorXd GaussianProcessSlipModel::afterScout(const std::vector<LogPrior>& priors,
                                                      const Eigen::VectorXd& scouted) {
@@ -159,7 +159,7 @@ Eigen::VectorXd GaussianProcessSlipModel::afterScout(const std::vector<LogPrior>
   return bestOf(*process_, priors, {scouted, last});
 }
 
-// The best of the local fits; status kDefaults and the prior's means when none of them ended well.
+// The best of the local fits; status kDefaults and the prior's means if none of them ended well.
 GaussianProcessSlipModel::Choice GaussianProcessSlipModel::fitFrom(GaussianProcess& process,
                                                                    const std::vector<LogPrior>& priors,
                                                                    const std::vector<Eigen::VectorXd>& starts) const {
@@ -178,7 +178,7 @@ GaussianProcessSlipModel::Choice GaussianProcessSlipModel::fitFrom(GaussianProce
   return choice;
 }
 
-// With the curvature at the start, of the samples and the priors; without it where the start does not suit the samples.
+// With the curvature at the start, of the samples and the priors; without it if the start does not suit the samples.
 GaussianProcessSlipModel::Choice GaussianProcessSlipModel::fitFromNearby(GaussianProcess& process,
                                                                          const std::vector<LogPrior>& priors,
                                                                          const Eigen::VectorXd& start) {

@@ -28,25 +28,25 @@ struct SlipModelParameters {
   void visit(ParameterVisitor& v);
 };
 
-/// Fits a window anew on each call, with the hyperparameters of the last one as a start.
+/// Fits a window from scratch on each call, starting from the last hyperparameters.
 class GaussianProcessSlipModel : public SlipModel {
  public:
   /// Throws std::invalid_argument for an unknown model or kind of inference.
   explicit GaussianProcessSlipModel(const SlipModelParameters& parameters);
 
-  /// With a regression of one's own for the components of `parameters.model`.
+  /// With a custom regression for the components of `parameters.model`.
   GaussianProcessSlipModel(const SlipModelParameters& parameters, std::unique_ptr<GaussianProcess> process);
 
-  /// A cold fit starts from several length scales and takes the best end. A later one starts from the previous
+  /// A cold fit starts from several length scales and keeps the best result. A later one starts from the previous
   /// hyperparameters, unless the posterior of the new window is higher at one of the cold starts. For the dense
-  /// regression this search goes over its state-space form, which costs a tenth; the dense one is fitted from its end,
-  /// with the curvature that it has there.
+  /// regression this search uses its state-space form, which costs a tenth; the dense one is then fitted from its
+  /// result, with the curvature found there.
   SlipFit fit(const SlipSamples& samples) override;
   bool isReady() const override { return current_.has_value(); }
   SlipPrediction predict(const Eigen::VectorXd& times_s) const override;
   Eigen::MatrixXd predictCovariance(const Eigen::VectorXd& times_s) const override;
 
-  /// Forgets hyperparameters and window: the next fit is a cold one.
+  /// Discards hyperparameters and window: the next fit is a cold one.
   void reset();
 
  private:

@@ -6,9 +6,9 @@
 namespace slipnav {
 namespace {
 
-// A variance may be this factor away from the power of slip in the window.
+// A variance may differ by this factor from the power of slip in the window.
 constexpr double kVarianceRange = 1e4;
-// A slow component persists from this many spans of the window on, to the second number.
+// A slow component persists for this many spans of the window, up to the second number.
 constexpr double kMinSlowSpans = 0.5;
 constexpr double kMaxSlowSpans = 20.0;
 constexpr double kMeanSlowSpans = 2.0;
@@ -26,7 +26,7 @@ LogPrior makePrior(double mean, double stddev, double lower, double upper, doubl
 
 double slipLengthScale(const WindowScale& scale) { return std::sqrt(scale.interval_s * scale.span_s); }
 
-// Relative standard deviation of a variance that is seen in `independent` values.
+// Relative standard deviation of a variance estimated from `independent` values.
 double varianceStep(double independent) { return std::sqrt(2.0 / std::max(2.0, independent)); }
 
 LogPrior variancePrior(const LatentComponent& component, double power, const WindowScale& scale,
@@ -72,7 +72,7 @@ void PriorParameters::visit(ParameterVisitor& v) {
 
 std::vector<LogPrior> makePriors(const LatentModel& model, const WindowScale& scale,
                                  const PriorParameters& parameters) {
-  // The part that comes and goes explains what varies; without a persistent part it has to explain the mean as well.
+  // The varying part explains the variation; without a persistent part it has to explain the mean as well.
   const double slip_power = hasPersistentPart(model) ? scale.variance : scale.power;
   std::vector<LogPrior> priors;
   for (const LatentComponent& component : model) {

@@ -1,7 +1,6 @@
 #include "core/forecast/sigma_points.h"
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 #include "core/parameters/parameter_checker.h"
@@ -14,14 +13,22 @@ double slope(double speed_mps, double slip) {
   return slip >= 0.0 ? speed_mps / ((1.0 - slip) * (1.0 - slip)) : speed_mps;
 }
 
-// Narrower than this the difference quotient of the points loses digits.
+SigmaPointForm formOf(const std::string& name) {
+  return name == "paper"    ? SigmaPointForm::kPaper
+         : name == "letter" ? SigmaPointForm::kLetter
+                            : SigmaPointForm::kUnscented;
+}
+
+// For a narrower spread the difference quotient of the points loses precision.
 constexpr double kMinSpread = 1e-6;
 
 }  // namespace
 
 void SigmaPointParameters::visit(ParameterVisitor& v) {
-  v.choice("form", form, {"unscented", "paper"},
-           "wheel speed variance from predicted slip: dimensionally right, or by the letter of the paper");
+  v.choice(
+      "form", form, {"unscented", "paper", "letter"},
+      "wheel speed variance from predicted slip: unscented; by the paper's three points; or by the paper's printed "
+      "equations, whose units are inconsistent");
   v.number("spread", spread, {1.0, 10.0}, "distance of the outer sigma points from the mean, in standard deviations");
   v.number("max_slip", max_slip, {0.0, 0.999}, "sigma points are clamped to this slip ratio, short of the pole at 1");
 }
@@ -31,9 +38,7 @@ double wheelSpeedFromSlip(double speed_mps, double slip) {
 }
 
 SigmaPoints::SigmaPoints(const SigmaPointParameters& parameters)
-    : form_(parameters.form == "paper" ? SigmaPointForm::kPaper : SigmaPointForm::kUnscented),
-      spread_(parameters.spread),
-      max_slip_(parameters.max_slip) {
+    : form_(formOf(parameters.form)), spread_(parameters.spread), max_slip_(parameters.max_slip) {
   checkParameters(parameters);
 }
 
@@ -43,36 +48,58 @@ WheelSpeedPrediction SigmaPoints::predict(double speed_mps, double slip_mean, do
   if (!(slip_stddev >= 0.0)) {
     throw std::invalid_argument("sigma points: the standard deviation of slip must not be negative");
   }
-  return form_ == SigmaPointForm::kPaper ? paper(speed_mps, slip_mean, slip_stddev)
-                                         : unscented(speed_mps, slip_mean, slip_stddev);
+  return form_ == SigmaPointForm::kUnscented ? unscented(speed_mps, slip_mean, slip_stddev)
+                                             : paper(speed_mps, slip_mean, slip_stddev);
+}
+
+double SigmaPoints::wheelSpeed(double speed_mps, double slip) const {
+  return form_ == SigmaPointForm::kUnscented ? wheelSpeedFromSlip(speed_mps, clampSlip(slip))
+                                             : speed_mps / (1.0 - clampSlip(slip));
+}
+
+/// From the mean to the outer points.
+double SigmaPoints::reach(double slip_stddev) const {
+  switch (form_) {
+    case SigmaPointForm::kUnscented:
+      return spread_ * slip_stddev;
+    case SigmaPointForm::kPaper:
+      return slip_stddev;
+    case SigmaPointForm::kLetter:
+      break;
+  }
+  return slip_stddev * slip_stddev;
+}
+
+std::array<double, 3> SigmaPoints::points(double speed_mps, double slip_mean, double slip_stddev) const {
+  const double outer = reach(slip_stddev);
+  return {wheelSpeed(speed_mps, slip_mean), wheelSpeed(speed_mps, slip_mean + outer),
+          wheelSpeed(speed_mps, slip_mean - outer)};
 }
 
 WheelSpeedPrediction SigmaPoints::unscented(double speed_mps, double slip_mean, double slip_stddev) const {
-  const double reach = spread_ * slip_stddev;
   const double outer_weight = 0.5 / (spread_ * spread_);
-  const double center = wheelSpeedFromSlip(speed_mps, clampSlip(slip_mean));
+  const std::array<double, 3> chi = points(speed_mps, slip_mean, slip_stddev);
   // Deviations from the central point: exact zeros for zero spread.
-  const double above = wheelSpeedFromSlip(speed_mps, clampSlip(slip_mean + reach)) - center;
-  const double below = wheelSpeedFromSlip(speed_mps, clampSlip(slip_mean - reach)) - center;
+  const double above = chi[1] - chi[0];
+  const double below = chi[2] - chi[0];
   const double shift = outer_weight * (above + below);
   WheelSpeedPrediction prediction;
-  prediction.mean_mps = center + shift;
+  prediction.mean_mps = chi[0] + shift;
   prediction.variance = std::max(0.0, outer_weight * (above * above + below * below) - shift * shift);
-  prediction.sensitivity_mps =
-      reach > kMinSpread ? 0.5 * (above - below) / reach : slope(speed_mps, clampSlip(slip_mean));
+  prediction.sensitivity_mps = reach(slip_stddev) > kMinSpread ? 0.5 * (above - below) / reach(slip_stddev)
+                                                               : slope(speed_mps, clampSlip(slip_mean));
   return prediction;
 }
 
 WheelSpeedPrediction SigmaPoints::paper(double speed_mps, double slip_mean, double slip_stddev) const {
-  const double slip_variance = slip_stddev * slip_stddev;
-  const auto chi = [&](double slip) { return speed_mps / (1.0 - clampSlip(slip)); };
-  const std::array<double, 3> points = {chi(slip_mean), chi(slip_mean + slip_variance), chi(slip_mean - slip_variance)};
-  const double mean = (points[0] + points[1] + points[2]) / 3.0;
+  const std::array<double, 3> chi = points(speed_mps, slip_mean, slip_stddev);
+  const double mean = (chi[0] + chi[1] + chi[2]) / 3.0;
   double spread = 0.0;
-  for (const double point : points) {
+  for (const double point : chi) {
     spread += (point - mean) * (point - mean) / 3.0;
   }
-  return {mean, spread * spread, slope(speed_mps, clampSlip(slip_mean))};
+  const double variance = form_ == SigmaPointForm::kLetter ? spread * spread : spread;
+  return {mean, variance, slope(speed_mps, clampSlip(slip_mean))};
 }
 
 }  // namespace slipnav

@@ -1,5 +1,5 @@
 #pragma once
-/// What a model of wheel slip over time offers: fit a window, predict ahead.
+/// Interface of a model of wheel slip over time: fit a window, predict ahead.
 
 #include <Eigen/Core>
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace slipnav {
 
-/// What has become of a window.
+/// Result for a window.
 enum class SlipFitStatus {
   kConverged,            ///< hyperparameters fitted
-  kNotConverged,         ///< out of evaluations; the best hyperparameters met are used
-  kKeptPrevious,         ///< the optimiser failed; this window with the hyperparameters of the last good fit
-  kDefaults,             ///< the optimiser failed and there was no good fit yet; this window with the prior's means
+  kNotConverged,         ///< out of evaluations; the best hyperparameters found are used
+  kKeptPrevious,         ///< the optimizer failed; this window with the hyperparameters of the last good fit
+  kDefaults,             ///< the optimizer failed and there was no good fit yet; this window with the prior's means
   kConstantSlip,         ///< slip does not vary: nothing to fit; this window with the prior's means
-  kTooFewSamples,        ///< window refused
-  kOriginAfterSample,    ///< window refused: the given origin is later than its first sample
-  kNotPositiveDefinite,  ///< window refused: no regression with any hyperparameters at hand
+  kTooFewSamples,        ///< window rejected
+  kOriginAfterSample,    ///< window rejected: the given origin is later than its first sample
+  kNotPositiveDefinite,  ///< window rejected: no regression with any available hyperparameters
 };
 
-/// One lower-case word or two, for messages and files.
+/// One or two lower-case words, for messages and files.
 const char* toString(SlipFitStatus status);
 
-/// Whether the window was taken. After a refused one the model is as it was before.
+/// Whether the window was accepted. After a rejected one the model is unchanged.
 bool isAccepted(SlipFitStatus status);
 
 /// Report on one window.
@@ -33,13 +33,13 @@ struct SlipFit {
   SlipFitStatus status = SlipFitStatus::kTooFewSamples;
   int samples = 0;   ///< used
   int left_out = 0;  ///< see SlipWindow
-  // Of the window when it was taken, else of the one before; empty and zero when there is none.
+  // Of the window if it was accepted, else of the previous one; empty and zero if there is none.
   double origin_s = 0.0;
   std::vector<std::pair<std::string, double>> hyperparameters;  ///< name (unit as suffix) and value
   double log_marginal_likelihood = 0.0;                         ///< of the samples used
   int evaluations = 0;                                          ///< of the likelihood, for this window
 
-  /// By its name, with the unit; zero when the model has none of that name.
+  /// By its name, with the unit; zero if the model has none of that name.
   double hyperparameter(const std::string& name) const;
 };
 
@@ -50,22 +50,22 @@ struct SlipPrediction {
   Eigen::VectorXd stddev;
 };
 
-/// Holds the last window taken; predictions are made from it.
+/// Holds the last accepted window; predictions are made from it.
 class SlipModel {
  public:
   virtual ~SlipModel() = default;
 
-  /// Never throws for what sensors may deliver; throws std::invalid_argument when times and slips differ in length.
+  /// Never throws for anything sensors may deliver; throws std::invalid_argument if times and slips differ in length.
   virtual SlipFit fit(const SlipSamples& samples) = 0;
 
-  /// Whether a window was taken yet.
+  /// Whether a window has been accepted yet.
   virtual bool isReady() const = 0;
 
-  /// Predictions for times from the last sample on, on the clock of the samples. Throws std::logic_error when not
-  /// ready, std::invalid_argument for a time that is earlier than the model can tell.
+  /// Predictions for times from the last sample on, on the clock of the samples. Throws std::logic_error if not
+  /// ready, std::invalid_argument for a time too early for the model.
   virtual SlipPrediction predict(const Eigen::VectorXd& times_s) const = 0;
 
-  /// Joint covariance (n × n) of the latent slip at such times: how much of its error persists. Throws as predict().
+  /// Joint covariance (n × n) of the latent slip at such times: how much of its error persists. Throws like predict().
   virtual Eigen::MatrixXd predictCovariance(const Eigen::VectorXd& times_s) const = 0;
 };
 

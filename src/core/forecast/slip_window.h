@@ -11,8 +11,8 @@ namespace slipnav {
 struct SlipSamples {
   std::vector<double> times_s;
   std::vector<double> slips;
-  /// Where the time of the Brownian kernel begins, on the clock of times_s. None: the first usable sample minus one
-  /// sample interval, so that the first sample stands at one interval.
+  /// Where the time of the Brownian kernel starts, on the clock of times_s. If empty: one sample interval before the
+  /// first usable sample, so that the first sample is at one interval.
   std::optional<double> origin_s;
 };
 
@@ -27,13 +27,13 @@ struct SlipWindow {
   Eigen::Index size() const { return times.size(); }
 };
 
-/// Leaves out what cannot be used and chooses the origin. A saturated slip (|s| = 1: a wheel that spins on the spot or
-/// is locked) has no likelihood under a Gaussian model and is left out, as in the paper. Gaps are kept as they are.
-/// Throws std::invalid_argument when times and slips differ in length.
+/// Skips unusable samples and chooses the origin. A saturated slip (|s| = 1: a wheel that spins in place or is locked)
+/// has no likelihood under a Gaussian model and is skipped, as in the paper. Gaps are kept as they are.
+/// Throws std::invalid_argument if times and slips differ in length.
 SlipWindow makeSlipWindow(const SlipSamples& samples);
 
 /// Scale of a window, from which priors free of unit and origin are built. Powers are floored, so that constant slip
-/// gives finite ones.
+/// gives finite priors.
 struct WindowScale {
   double interval_s = 0.0;
   double span_s = 0.0;       ///< from the first to the last sample
@@ -44,7 +44,7 @@ struct WindowScale {
   double difference_power = 0.0;  ///< half the mean square of successive differences: white noise, and little else
 };
 
-/// @param slip_floor smallest standard deviation of slip that is told from constant slip
+/// @param slip_floor smallest standard deviation of slip that is distinguished from constant slip
 /// Throws std::invalid_argument for fewer than two samples.
 WindowScale measureScale(const SlipWindow& window, double slip_floor);
 

@@ -6,7 +6,7 @@ namespace slipnav {
 namespace {
 
 constexpr std::size_t kInitialRing = 4096;
-constexpr std::size_t kLargestRing = 1U << 18U;  // four minutes at 1 kHz, while an initial state is waited for
+constexpr std::size_t kLargestRing = 1U << 18U;  // four minutes at 1 kHz, while waiting for an initial state
 
 }  // namespace
 
@@ -104,7 +104,7 @@ std::optional<InsStep> InsEngine::step() {
   const NavigationState& start = is_first ? initial_ : slot(next_ - 1).state;
   ImuInterval interval = current.interval;
   double gap_s = current.gap_s;
-  if (is_first) {  // the initial state may lie inside the interval of the sample that follows it, or before it
+  if (is_first) {  // the initial state may lie inside the interval of the next sample, or before it
     const double duration_s = toSeconds(current.end - start.stamp);
     if (duration_s > gap_factor_ * interval.duration_s) {
       gap_s = duration_s - interval.duration_s;
@@ -114,7 +114,7 @@ std::optional<InsStep> InsEngine::step() {
   if (gap_s > max_bridged_gap_s_) {
     interval = steadyTurn(start, interval);
   }
-  // What the rates did before a gap says nothing about what they did in it.
+  // The rates before a gap say nothing about those in it.
   const ImuInterval previous = is_first || gap_s > 0.0 ? ImuInterval{} : slot(next_ - 1).interval;
   if (current.gap_s > kLongestGap_s) {
     current.state = start;

@@ -14,7 +14,7 @@ Vector2 levelAtRest(const Vector3& f) {
 Vector3 reactionToGravityOnTheMove(const std::vector<ImuSample>& samples, double first_speed_mps,
                                    double last_speed_mps) {
   if (samples.size() < 2) {
-    throw std::invalid_argument("levelling on the move needs at least two IMU samples");
+    throw std::invalid_argument("leveling on the move needs at least two IMU samples");
   }
   Quaternion q_b_to_b0 = Quaternion::Identity();
   Vector3 impulse_b0 = Vector3::Zero();

@@ -71,7 +71,7 @@ NavigationState Strapdown::propagate(const NavigationState& state, const ImuInte
   const Increments body = increments(state, previous, current);
   const Vector3 dv_n_unturned = state.q_b_to_n * body.dv_b;
 
-  // Half-way velocity and position, good to first order, for everything that changes slowly.
+  // Velocity and position at mid-interval, good to first order, for everything that changes slowly.
   const Vector3 start_rate =
       2.0 * planet_.omega_ie_n(state.position.latitude_rad) + planet_.omega_en_n(state.position, state.v_eb_n);
   const Vector3 g_n_start = planet_.gravity_n(state.position);

@@ -128,15 +128,15 @@ class Lines {
   std::map<std::string, std::string> values_;
 };
 
-/// The part that the checksum is of. Throws when it is not that of the file.
+/// The part covered by the checksum. Throws if the checksum does not match.
 std::string checkedBody(const std::string& text) {
   if (text.compare(0, std::char_traits<char>::length(kFormat), kFormat) != 0) {
-    refuse("is of another format or version");
+    refuse("has another format or version");
   }
   const std::string marker = "\nchecksum ";
   const std::size_t end = text.rfind(marker);
   if (end == std::string::npos) {
-    refuse("is cut off");
+    refuse("is truncated");
   }
   const std::string body = text.substr(0, end + 1);
   if (text.substr(end + marker.size()) != checksumOf(body) + "\n") {
@@ -152,7 +152,7 @@ void checkState(const InitialState& state) {
                         std::abs(state.origin.latitude_rad) < 0.5 * kPi && state.tremor_variance >= 0.0 &&
                         state.P.isApprox(state.P.transpose(), kUnitTolerance) && cholesky.info() == Eigen::Success;
   if (!possible) {
-    refuse("holds numbers that cannot be a state");
+    refuse("contains an impossible state");
   }
 }
 
@@ -172,20 +172,22 @@ std::string previousOf(const std::string& file) { return file + ".1"; }
 
 void CheckpointParams::visit(ParameterVisitor& v) {
   v.text("file", file,
-         "where the state is kept for a restart after a crash; empty: nowhere, and every start is a new one");
-  v.text(
-      "stop_file", stop_file,
-      "where emergency stop and override are kept, which hold until the operator ends them; empty: beside file, or in "
-      "ROS_HOME where there is none; none: nowhere, they end with the process");
-  v.number("interval_s", interval_s, {0.1, 3600.0}, "how often it is written, in time of the stamps [s]");
+         "file that keeps the state for a restart after a crash; empty: none, and every start is a new one");
+  v.text("launch_file", launch_file,
+         "used instead while `file` is empty, for a manager that dies and is restarted; for one launch only, and "
+         "rover.launch sets it");
+  v.text("stop_file", stop_file,
+         "file that keeps emergency stop and override until the operator ends them; empty: next to `file`, or in "
+         "ROS_HOME if that is empty; none: not kept, they end with the process");
+  v.number("interval_s", interval_s, {0.1, 3600.0}, "how often it is written, in sensor time [s]");
   v.number("max_age_s", max_age_s, {0.1, 1e6}, "an older one is not used [s]");
-  v.number("speed_mps", speed_mps, {0.0, 100.0}, "1σ, on each axis, of the mean velocity while nobody watched [m/s]");
+  v.number("speed_mps", speed_mps, {0.0, 100.0}, "1σ, on each axis, of the mean velocity while not running [m/s]");
   v.number("turn_rate_deg_per_s", turn_rate_deg_per_s, {0.0, 360.0},
-           "1σ of the mean heading rate while nobody watched [°/s]");
+           "1σ of the mean heading rate while not running [°/s]");
   v.number("tilt_deg_per_s", tilt_deg_per_s, {0.0, 360.0},
-           "1σ of the mean rate of roll and pitch while nobody watched [°/s]");
+           "1σ of the mean rate of roll and pitch while not running [°/s]");
   v.number("max_turn_deg", max_turn_deg, {0.0, 60.0},
-           "largest 1σ that heading and tilt get in this way; the filter is linear in them [°]");
+           "largest resulting 1σ of heading and tilt; the filter is linear in them [°]");
 }
 
 std::string formatCheckpoint(const Checkpoint& checkpoint) {

@@ -9,7 +9,7 @@ constexpr std::size_t kMaxWaiting = 100000;
 
 std::vector<WheelMotion> ContinuousWheels::push(const WheelMotion& wheels) {
   count_.add(wheels.stamp);
-  if (count_.steps() == 0) {  // a clock that has begun again
+  if (count_.steps() == 0) {  // a clock that has restarted
     waiting_.clear();
   }
   waiting_.push_back({wheels, count_.steps()});

@@ -1,5 +1,5 @@
 #pragma once
-/// Wheel samples in the continuous time of the IMU, whose steps are told by the mechanisation.
+/// Wheel samples in the continuous time of the IMU, whose clock steps are reported by the mechanization.
 
 #include <deque>
 #include <utility>
@@ -10,16 +10,16 @@
 
 namespace slipnav {
 
-/// A step of the clock and the samples after it come on two ways, so either may be first.
+/// A step of the clock and the samples after it arrive by two routes, so either may be first.
 class ContinuousWheels {
  public:
-  /// Samples whose time is known now: the one given, or none while a step of the clock is still to be told.
+  /// Samples whose time is now known: the given one, or none while a step of the clock is still to be reported.
   std::vector<WheelMotion> push(const WheelMotion& wheels);
 
-  /// What the mechanisation knows of the clock. @return the samples whose time is known by it
+  /// Takes the mechanization's view of the clock. @return the samples whose time is known from it
   std::vector<WheelMotion> learn(const ContinuousTime& time);
 
-  /// The mechanisation has begun again: steps before are no longer counted.
+  /// The mechanization has restarted: earlier steps no longer count.
   void recount();
 
   const ContinuousTime& time() const { return time_; }

@@ -8,13 +8,13 @@ namespace slipnav {
 namespace {
 
 constexpr Nanoseconds kShortestRest = kSecond;
-/// Before the wheels are seen to move, the body may already: only what is older counts as rest.
+/// The body may move before the wheels are seen to: only what is older counts as rest.
 constexpr Nanoseconds kDoubtfulRest = kSecond / 2;
 constexpr Nanoseconds kKeptRest = 2 * kSecond;
 constexpr Nanoseconds kIntegration = 3 * kSecond / 2;
-/// Slower starts are not told from what is left of gravity and biases.
+/// Slower starts are indistinguishable from residual gravity and biases.
 constexpr double kLeastSpeed_mps = 0.2;
-/// Of the wheels' speed; between 0 and 1 is slip.
+/// Relative to the wheel speed; between 0 and 1 is slip.
 constexpr double kOpposite = -0.5;
 
 }  // namespace

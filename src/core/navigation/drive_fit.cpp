@@ -12,27 +12,27 @@
 namespace slipnav {
 namespace {
 
-/// Degrees of freedom of the fixes' errors: 4 is usual where a few in a hundred are far off.
+/// Degrees of freedom of the fix errors: 4 is usual where a few in a hundred are far off.
 constexpr double kStudentFreedom = 4.0;
 constexpr int kReweightings = 10;
 constexpr std::size_t kLeastFixes = 2;
-/// Less way than this says nothing about a heading.
+/// A shorter distance says nothing about a heading.
 constexpr double kLeastWay_m = 0.5;
-/// Lags that are looked for: receivers in GPS time are 18 s ahead, buffers hold a few seconds.
+/// Lags searched for: receivers in GPS time are 18 s ahead, buffers hold a few seconds.
 constexpr double kLargestLag_s = 40.0;
 constexpr double kLagStep_s = 0.5;
-/// Fixes with old stamps come before the samples of wheels and gyro that are waited for: the newest ones stay out.
+/// Fixes with old stamps arrive before the wheel and gyro samples they must wait for: the newest ones are not used.
 constexpr Nanoseconds kNewest = 2 * kSecond;
 constexpr double kSmallestLag_s = 0.75;
-/// Residuals within so many of the fixes' σ, and this share of the way for slip and bends, are none.
+/// Residuals within this many of the fixes' σ, and this share of the distance for slip and bends, do not count.
 constexpr double kUsualResidual = 1.5;
 constexpr double kUsualSlip = 0.05;
 /// A lag has to explain this much of the residuals.
 constexpr double kExplained = 0.5;
-/// GPS time is ahead of UTC by so much, since 2017.
+/// GPS time is ahead of UTC by this much, since 2017.
 constexpr double kLeapSeconds = 18.0;
 
-/// A fix and where wheels and gyro say that the antenna was.
+/// A fix and where wheels and gyro put the antenna.
 struct Pair {
   Vector2 fix_m;  ///< north, east
   Vector2 track_m;
@@ -88,7 +88,7 @@ double residualSquare(const Pair& pair, const DriveFit& fit) {
   return (pair.fix_m - expected).squaredNorm();
 }
 
-/// By the fixes' own covariances alone: what a robust fit leaves aside is what tells of another clock.
+/// By the fixes' own covariances only: what a robust fit ignores is what reveals another clock.
 void describe(const std::vector<Pair>& pairs, DriveFit& fit) {
   double weights = 0.0;
   double residuals = 0.0;
@@ -188,7 +188,7 @@ std::optional<double> lagOfFixes(const Planet& planet, const std::vector<Positio
   for (double lag_s = -kLargestLag_s; lag_s <= kLargestLag_s; lag_s += kLagStep_s) {
     const Nanoseconds lag = fromSeconds(lag_s);
     if (!track.antennaAt(last + lag)) {
-      continue;  // the newest fixes say most; a lag that leaves them out fits anything
+      continue;  // the newest fixes say most; a lag that excludes them fits anything
     }
     const std::optional<DriveFit> fit = fitDrive(planet, fixes, track, reference, first, last, lag);
     const bool possible = fit && std::abs(fit->scale - 1.0) < 0.5;
@@ -204,11 +204,11 @@ std::string describeLag(double lag_s) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << std::fixed << std::setprecision(1) << "gps/fix is stamped " << std::abs(lag_s) << " s too "
-       << (lag_s > 0.0 ? "early" : "late") << " against wheels and gyro";
+       << (lag_s > 0.0 ? "early" : "late") << " relative to wheels and gyro";
   if (std::abs(std::abs(lag_s) - kLeapSeconds) < 1.0) {
     text << " (18 s: GPS time instead of UTC?)";
   }
-  text << ": mend the clock of the receiver's driver, or set initialization.fix_stamp_offset_s";
+  text << ": fix the clock of the receiver's driver, or set initialization.fix_stamp_offset_s";
   return text.str();
 }
 

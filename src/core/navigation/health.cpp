@@ -9,12 +9,12 @@
 namespace slipnav {
 namespace {
 
-/// A measurement that has been rejected for so long contradicts; single ones are outliers.
+/// A measurement rejected for this long contradicts; single ones are outliers.
 constexpr double kRejected_s = 1.5;
-/// Wheels and vehicle that are both faster than this, in opposite directions, for so long.
+/// Wheels and vehicle that are both faster than this, in opposite directions, for this long.
 constexpr double kClearSpeed_mps = 0.2;
 constexpr double kAgainst_s = 0.3;
-/// A size is said again when it has grown by so much.
+/// A magnitude is reported again when it has grown by this factor.
 constexpr double kGrowth = 1.25;
 
 std::string formatSize(double value) {
@@ -96,10 +96,10 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
   noteDirection(filter.state());
   noteRejections(filter);
   if (filter.recoveries() != std::exchange(recoveries_, filter.recoveries())) {
-    note("faster than any slip explains: velocity and level begun anew from wheels and gravity", now);
+    note("faster than any slip explains: velocity and tilt restarted from wheels and gravity", now);
   }
   if (filter.isStuck()) {
-    note("stuck: the wheels turn and the rover stands", now);
+    note("stuck: the wheels turn but the rover does not move", now);
   }
   for (std::size_t i = 0; i < wheel_names_.size(); ++i) {
     if (filter.wheelMonitor().isFaulty(i)) {
@@ -110,14 +110,14 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
 
 void HealthMonitor::noteSilence(Nanoseconds now) {
   if (newest_wheels_ == 0) {
-    newest_wheels_ = now;  // watched from here on
+    newest_wheels_ = now;  // monitored from here on
   } else if (toSeconds(now - newest_wheels_) > max_wheel_interval_s_) {
     note("wheels silent", now);
   }
 }
 
-/// Beyond any slip: a sign, or a vehicle that slides back while its wheels drive ahead. Until the filter believes the
-/// wheels again.
+/// Beyond any slip: a sign error, or a vehicle that slides back while its wheels drive forward. Until the filter trusts
+/// the wheels again.
 void HealthMonitor::noteDirection(const NavigationState& state) {
   const double forward_mps = (state.q_b_to_n.conjugate() * state.v_eb_n).x();
   const bool against = std::min(std::abs(forward_mps), std::abs(wheel_speed_mps_)) > kClearSpeed_mps &&
@@ -138,7 +138,7 @@ void HealthMonitor::noteRejections(const FilterEngine& filter) {
     const ComponentStatus& status = filter.status(component);
     const bool rejected_again =
         status.rejected != std::exchange(rejected_[static_cast<std::size_t>(i)], status.rejected);
-    // What is not measured any more contradicts nothing.
+    // A measurement that is no longer made contradicts nothing.
     if (rejected_again && status.rejected_since != 0 && toSeconds(now - status.rejected_since) > kRejected_s) {
       note(std::string(componentName(component)) + " contradicts", now);
     }

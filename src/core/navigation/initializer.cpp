@@ -12,22 +12,20 @@
 namespace slipnav {
 namespace {
 
-// Wide enough that what follows decides: the filter sees the same samples again and must not count them twice.
+// Wide enough that later measurements decide: the filter sees the same samples again and must not count them twice.
 constexpr double kLevelStd_rad = 2.0 * kPi / 180.0;
-// The course of the drive is the heading but for side slip and mounting, however well the fixes tell it.
-constexpr double kLeastDriveHeadingStd_rad = 1.0 * kPi / 180.0;
 constexpr double kHeadingStdFactor = 3.0;
-// The drive goes on until its fixes tell the heading so well, or is taken as it is after so many times its usual
-// length.
+// The drive continues until its fixes determine the heading this well, or is accepted as is after this many times its
+// usual length.
 constexpr double kHeadingGoal_rad = 2.0 * kPi / 180.0;
 constexpr double kLongestDrive = 5.0;
-// Way by fixes over way by wheels: a rover that is stuck, or fixes that wander, tell no heading.
+// Distance by fixes over distance by wheels: a stuck rover, or fixes that wander, give no heading.
 constexpr double kLeastScale = 0.5;
 constexpr double kLargestScale = 2.0;
 constexpr double kRestVelocityStd_mps = 0.05;
 constexpr double kFixStdFactor = 3.0;
 constexpr double kFixesSilent_s = 3.0;
-// An attitude or position that is called the truth still ends up in a matrix that has to be inverted.
+// An attitude or position that counts as truth still ends up in a matrix that has to be inverted.
 constexpr double kTruthAttitudeStd_rad = 1e-5;
 constexpr double kTruthVelocityStd_mps = 1e-3;
 
@@ -54,16 +52,20 @@ void InitializationParams::visit(ParameterVisitor& v) {
   v.number("longitude_deg", longitude_deg, {-180.0, 180.0}, "likewise [°]");
   v.number("height_m", height_m, {-20000.0, 50000.0}, "likewise, above the ellipsoid [m]");
   v.number("position_std_m", position_std_m, {0.0, 1e6}, "1σ of a given start position on each axis [m]");
-  v.number("min_rest_s", min_rest_s, {0.5, 3600.0}, "shortest standstill that serves for levelling [s]");
-  v.number("max_rest_s", max_rest_s, {1.0, 3600.0}, "what is remembered of a longer one [s]");
+  v.number("min_rest_s", min_rest_s, {0.5, 3600.0}, "shortest standstill used for leveling [s]");
+  v.number("max_rest_s", max_rest_s, {1.0, 3600.0}, "how much of a longer one is kept [s]");
   v.number("drive_distance_m", drive_distance_m, {1.0, 1000.0}, "length of the drive that gives the heading [m]");
+  v.number("drive_heading_std_deg", drive_heading_std_deg, {1e-3, 45.0},
+           "least 1σ of that heading: it is the course of the drive except for side slip and mounting, however good "
+           "the fixes are [°]");
   v.number("levelling_window_s", levelling_window_s, {0.5, 600.0},
-           "length of the window for levelling without a standstill [s]");
-  v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0}, "1σ of roll and pitch levelled on the move [°]");
+           "length of the window for leveling without a standstill [s]");
+  v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0},
+           "1σ of roll and pitch after leveling on the move [°]");
   v.number("moving_speed_std_mps", moving_speed_std_mps, {1e-3, 10.0},
            "1σ of the velocity when starting on the move [m/s]");
   v.number("fix_stamp_offset_s", fix_stamp_offset_s, {-3600.0, 3600.0},
-           "added to the stamps of gps/fix and gps/velocity, for a receiver in another time [s]");
+           "added to the stamps of gps/fix and gps/velocity, for a receiver with another time scale [s]");
   v.numbers("gyro_bias_deg_per_h", gyro_bias_deg_per_h, {-1e6, 1e6},
             "mean of the gyro bias at switch-on, body axes forward, right, down [°/h]");
   v.numbers("accel_bias_ug", accel_bias_ug, {-1e6, 1e6},
@@ -138,7 +140,7 @@ std::string Initializer::progress() const {
     return complaint();
   }
   if (params_.source != "gnss") {
-    return recording_.imu().empty() ? "waiting for imu/data" : "levelling";
+    return recording_.imu().empty() ? "waiting for imu/data" : "leveling";
   }
   if (!recording_.restIsLongEnough()) {
     return "waiting for a standstill of " + std::to_string(static_cast<int>(std::ceil(params_.min_rest_s))) + " s";
@@ -214,7 +216,7 @@ std::optional<InitialState> Initializer::fromDrive() const {
     return std::nullopt;
   }
   if (!clock_complaint_.empty() && recording_.rest().begin <= judged_fix_) {
-    return std::nullopt;  // on a straight line the lag would soon hide in the place of the start
+    return std::nullopt;  // on a straight line the lag would soon be absorbed by the start position
   }
   const std::optional<Nanoseconds> begin = recording_.windowBeginFrom(
       rested ? recording_.rest().begin : recording_.fixes().front().stamp, params_.levelling_window_s);
@@ -235,7 +237,7 @@ std::optional<InitialState> Initializer::fromDrive() const {
   return result;
 }
 
-/// Nothing as long as the drive does not tell the heading.
+/// Nothing as long as the drive does not determine the heading.
 std::optional<DriveFit> Initializer::fitOfDrive(Nanoseconds begin, Nanoseconds end, bool at_rest) const {
   const double bias_z = at_rest ? recording_.mean(recording_.rest().begin, recording_.rest().end).omega_ib_b.z()
                                 : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
@@ -275,7 +277,7 @@ InitialState Initializer::beginOfDrive(Nanoseconds begin, const DriveFit& fit, b
   });
   initial.P.diagonal().segment<3>(kPosition) = square(kFixStdFactor) * best->variance_ned_m2;
   initial.P(kAttitude + 2, kAttitude + 2) =
-      square(std::max(kLeastDriveHeadingStd_rad, kHeadingStdFactor * fit.heading_std_rad));
+      square(std::max(degToRad(params_.drive_heading_std_deg), kHeadingStdFactor * fit.heading_std_rad));
   return initial;
 }
 
@@ -328,7 +330,7 @@ void Initializer::levelOnTheMoveInto(Nanoseconds begin, Nanoseconds end, double 
 
 InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until) const {
   FilterSetup setup = setup_;
-  setup.gnss = FixParams();  // all fixes are there already
+  setup.gnss = FixParams();  // all fixes are already there
   Navigator navigator(planet_, imu_params_, setup);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   for (const PositionFix& fix : recording_.fixes()) {

@@ -14,11 +14,11 @@ constexpr double kLeastSamples = 10.0;
 /// Over a window a rover gains a few m/s at most; sensors are off by a few percent.
 constexpr double kForceTolerance = 0.25;
 constexpr double kStandardGravity_mps2 = 9.80665;
-/// Below this share of gravity, what is left is bias and tilt.
+/// Below this share of gravity, the rest is bias and tilt.
 constexpr double kNoGravity = 0.25;
 /// No rover stands on a slope of 60°.
 constexpr double kLeastUpward = 0.5;
-/// °/s for rad/s is a factor of 57; slip, scrub and noise make a few.
+/// °/s for rad/s is a factor of 57; slip, scrub and noise amount to a few.
 constexpr double kUnitFactor = 15.0;
 constexpr double kOppositeTurn = -0.3;
 constexpr double kLeastTurn_rad = 0.5;
@@ -43,21 +43,20 @@ std::string complaintOfForce(double length_mps2, double gravity_mps2) {
   const std::string measured =
       "the mean specific force is " + number(length_mps2) + " where gravity is " + number(gravity_mps2) + " m/s^2: ";
   if (isAbout(length_mps2, gravity_mps2 / kStandardGravity_mps2)) {
-    return measured + "in g? the driver has to give m/s^2";
+    return measured + "in g? the driver must publish m/s^2";
   }
   if (length_mps2 < kNoGravity * gravity_mps2) {
-    return measured + "gravity taken out? choose the topic of the driver that has it, or switch that off";
+    return measured + "gravity taken out? use the driver's topic that includes it, or switch that off";
   }
-  return measured + "another unit, or another planet? the driver has to give m/s^2, see planet";
+  return measured + "another unit, or another planet? the driver must publish m/s^2, see planet";
 }
 
 std::string complaintOfRateUnit(const std::string& than_what) {
-  return "the gyros turn " + than_what + ": in deg/s? the driver has to give rad/s";
+  return "the gyros turn " + than_what + ": in deg/s? the driver must publish rad/s";
 }
 
 std::string complaintOfDirection(bool has_sign) {
-  return std::string("wheels and IMU disagree on the direction: ") +
-         (has_sign ? "" : "the wheels' speed has no sign, ") +
+  return std::string("wheels and IMU disagree on the direction: ") + (has_sign ? "" : "the wheel speed has no sign, ") +
          "wheels[].sign is wrong, or imu.mount is turned by 180 deg about z";
 }
 
@@ -109,19 +108,19 @@ void InputCheck::judgeForce(const Vector3& mean_force) {
   const double length = mean_force.norm();
   const bool right = isAbout(length, gravity_mps2_);
   if (!right && complained_force_mps2_ != 0.0) {
-    return;  // said already; on slopes what is left of gravity changes
+    return;  // already reported; on slopes the residual of gravity changes
   }
   complained_force_mps2_ = right ? 0.0 : length;
   force_complaint_ = complaintOfForce(length, gravity_mps2_);
   if (right && -mean_force.z() < kLeastUpward * length) {
     force_complaint_ =
-        "the specific force does not point up: imu.mount does not say how the sensor is turned, or the "
-        "driver gives gravity upside down; a level sensor at rest says +9.8 m/s^2 on the axis that "
+        "the specific force does not point up: imu.mount does not match the sensor, or the "
+        "driver publishes gravity with the wrong sign; a level sensor at rest reads +9.8 m/s^2 on the axis that "
         "points up";
   }
 }
 
-/// Between the middles of two windows the gyros have turned by half of what they turned in each.
+/// Between the midpoints of two windows the gyros have turned by half of what they turned in each.
 void InputCheck::judgeTilt(const Vector3& mean_force, const Vector3& turned) {
   if (last_force_.isZero() || !force_complaint_.empty()) {
     return;
@@ -163,7 +162,7 @@ void InputCheck::judgeTurns() {
   } else if (ratio < kOppositeTurn) {
     rate_complaint_ =
         "gyros and wheels turn in opposite directions: imu.mount is upside down, the gyro's axes are not "
-        "those of the accelerometer, or left and right wheels are exchanged";
+        "those of the accelerometer, or left and right wheels are swapped";
   }
   wheels_turned_rad_ = wheels_squared_ = gyro_by_wheels_ = 0.0;
 }

@@ -1,8 +1,8 @@
 #pragma once
-/// How far ahead of the filter mechanising is of use.
+/// How far ahead of the filter it makes sense to mechanize.
 ///
-/// The next wheel sample will correct the state, and what was mechanised beyond it is then done again. So while that
-/// sample is known, nothing beyond it is wanted. Otherwise the mechanisation may run ahead until the sample comes, or
+/// The next wheel sample will correct the state, and anything mechanized beyond it must be redone. So while that
+/// sample is known, nothing beyond it is wanted. Otherwise the mechanization may run ahead until the sample arrives, or
 /// counts as missing.
 
 #include <deque>
@@ -12,7 +12,7 @@
 
 namespace slipnav {
 
-/// Says up to which stamp Ins is to mechanise.
+/// Decides up to which stamp Ins mechanizes.
 class LookAhead {
  public:
   explicit LookAhead(double max_wait_s) : window_(fromSeconds(max_wait_s + kMargin_s)) {}
@@ -20,17 +20,17 @@ class LookAhead {
   /// A new start; nothing is known.
   void restart(Nanoseconds processed);
   void addWheels(Nanoseconds stamp) { wheels_.insert(stamp); }
-  /// A step that was there before is not noted again.
+  /// A step that was already there is not added again.
   void addStep(Nanoseconds end);
-  /// The filter has come to the end of a step.
+  /// The filter has reached the end of a step.
   void processed(Nanoseconds end);
-  /// The steps that were not processed are void.
+  /// The unprocessed steps are void.
   void forgetSteps() { steps_.clear(); }
 
   /// No step is wanted beyond the first one that ends at or after this.
   Nanoseconds runUntil() const;
 
-  /// Whether the mechanisation has used up what it was told last and is to be told anew.
+  /// Whether the mechanization has used up its last limit and needs a new one.
   bool isStalled() const { return newestStep() >= told_ && runUntil() > told_; }
   void told(Nanoseconds run_until) { told_ = run_until; }
 
@@ -42,8 +42,8 @@ class LookAhead {
   Nanoseconds window_;
   Nanoseconds processed_ = 0;
   Nanoseconds told_ = 0;
-  std::deque<Nanoseconds> steps_;  ///< ends of those that are not processed
-  std::set<Nanoseconds> wheels_;   ///< later than what is processed
+  std::deque<Nanoseconds> steps_;  ///< ends of unprocessed steps
+  std::set<Nanoseconds> wheels_;   ///< later than the processed ones
 };
 
 }  // namespace slipnav

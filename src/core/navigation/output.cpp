@@ -6,7 +6,7 @@
 namespace slipnav {
 namespace {
 
-/// Bandwidth at which the angular rate is published, for the variance of its noise.
+/// Bandwidth at which the angular rate is published, for its noise variance.
 constexpr double kRateBandwidth_hz = 50.0;
 
 /// Diagonal matrix between forward-right-down and forward-left-up.

@@ -1,9 +1,9 @@
 #pragma once
-/// How long, by the wall clock, a silent sensor is waited for.
+/// How long, by the wall clock, to wait for a silent sensor.
 ///
-/// What is computed depends on stamps alone: a sensor that is silent for longer than `filter.max_wait_s` is not waited
-/// for. But in a recording played fast that is a few milliseconds, in which a message may simply still be on its way.
-/// Hence silence counts only once it has also lasted a moment of real time. This never changes a result, it only
+/// Results depend only on stamps: a sensor that is silent for longer than `filter.max_wait_s` is not waited
+/// for. But in a recording played fast that is a few milliseconds, during which a message may simply still be on its
+/// way. Hence silence counts only once it has also lasted a moment of real time. This never changes a result, it only
 /// delays it while a sensor is silent.
 
 #include <deque>
@@ -16,14 +16,14 @@
 
 namespace slipnav {
 
-/// Newest stamp of one sensor that came at least the patience ago.
+/// Newest stamp of one sensor that arrived at least the patience ago.
 class TrustedStamp {
  public:
   explicit TrustedStamp(double patience_s = kPatience_s) : patience_s_(patience_s) {}
 
-  /// @param now_s any clock that only runs forward
+  /// @param now_s any monotonic clock
   void push(Nanoseconds stamp, double now_s);
-  /// 0 when nothing is old enough.
+  /// The stamp; 0 if nothing is old enough.
   Nanoseconds at(double now_s);
 
  private:
@@ -37,20 +37,20 @@ class TrustedStamp {
   Nanoseconds trusted_ = 0;
 };
 
-/// Holds mechanised steps back from the filter as long as samples that belong before them may be on their way.
+/// Holds mechanized steps back from the filter while earlier samples may still be on their way.
 class StepGate {
  public:
-  /// @param max_wait_s filter.max_wait_s; nothing when no wheel samples are used
+  /// @param max_wait_s filter.max_wait_s; nothing if no wheel samples are used
   explicit StepGate(std::optional<double> max_wait_s, double patience_s = kPatience_s)
       : max_wait_s_(max_wait_s), patience_s_(patience_s), trusted_(patience_s) {}
 
-  /// Drops what is held; steps that come again in their place need not wait again.
+  /// Drops held steps; steps that come again in their place need not wait again.
   void clear() { held_.clear(); }
   /// Forgets everything.
   void restart();
   void push(const InsStep& step, double now_s);
 
-  /// Lets steps go, in order.
+  /// Releases steps, in order.
   /// @param wheels_known_until wheel samples are known without a hole up to this stamp
   /// @param others_decided_at stamp of the IMU at which the filter stops waiting for others
   void release(Nanoseconds wheels_known_until, double now_s, const std::function<void(const InsStep&)>& sink,

@@ -7,7 +7,7 @@ namespace slipnav {
 Resumption::Resumption(const Planet& planet, const CheckpointParams& params, const FilterSetup& setup)
     : params_(params), prior_variance_(ErrorDynamics(planet, setup.imu, setup.vehicle).priorVariance()) {
   if (params.enabled()) {
-    LoadedCheckpoint loaded = loadCheckpoint(params.file);
+    LoadedCheckpoint loaded = loadCheckpoint(params.place());
     checkpoint_ = std::move(loaded.checkpoint);
     refused_ = std::move(loaded.refused);
   }
@@ -22,7 +22,7 @@ InitialState Resumption::resume(Nanoseconds now) {
 void Resumption::deleteFiles() {
   forget();
   if (params_.enabled()) {
-    deleteCheckpoint(params_.file);
+    deleteCheckpoint(params_.place());
   }
 }
 

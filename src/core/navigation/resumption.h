@@ -1,6 +1,6 @@
 #pragma once
-/// The one chance to go on where an estimate ended: from the checkpoint of the program's predecessor, or from what the
-/// filter handed over last.
+/// Resumes an ended estimate, once: from the checkpoint of the program's predecessor, or from what the
+/// filter last handed over.
 
 #include <optional>
 #include <string>
@@ -11,13 +11,13 @@
 
 namespace slipnav {
 
-/// Holds the checkpoint until it is used or of no use any more.
+/// Holds the checkpoint until it is used or no longer usable.
 class Resumption {
  public:
   /// Reads the checkpoint, if the parameters name a file.
   Resumption(const Planet& planet, const CheckpointParams& params, const FilterSetup& setup);
 
-  /// Files that were there and could not be used, one line each.
+  /// Files that existed but could not be used, one line each.
   const std::vector<std::string>& refused() const { return refused_; }
 
   /// Holds a newer state instead.
@@ -25,17 +25,17 @@ class Resumption {
 
   bool isPossible() const { return checkpoint_.has_value(); }
 
-  /// The state to go on from at `now` (see resumeFrom()); it is given once. Throws std::invalid_argument when the
-  /// checkpoint is of another time; then there is none any more.
+  /// The state to resume from at `now` (see resumeFrom()), returned only once. Throws std::invalid_argument if the
+  /// checkpoint is from another time; then it is discarded.
   InitialState resume(Nanoseconds now);
 
-  /// How long the vehicle was unwatched before it went on [s].
+  /// How long the vehicle was not tracked before resuming [s].
   double unwatched() const { return unwatched_s_; }
 
-  /// What is held is not to be used.
+  /// Discards the held state.
   void forget() { checkpoint_.reset(); }
 
-  /// Likewise, and no later start shall find it either.
+  /// Likewise, so that no later start finds it either.
   void deleteFiles();
 
  private:

@@ -48,7 +48,7 @@ void SampleMerger::insert(const Sample& sample) {
 
 SampleMerger::Stream* SampleMerger::earliest() {
   Stream* first = nullptr;
-  // Of equal stamps the IMU sample is the last: it closes the interval that the others lie in.
+  // Of equal stamps the IMU sample is last: it closes the interval that contains the others.
   for (auto stream = streams_.rbegin(); stream != streams_.rend(); ++stream) {
     if (!stream->waiting.empty() &&
         (first == nullptr || stream->waiting.front().instant < first->waiting.front().instant)) {

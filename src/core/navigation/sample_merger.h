@@ -1,10 +1,10 @@
 #pragma once
-/// Brings the samples of several sensors into one order by stamp, whatever the order in which they come.
+/// Merges the samples of several sensors in order of stamp, whatever the order of arrival.
 ///
-/// A sample is let go when the IMU has gone on by the wait since; what comes later than that is out of order, and those
-/// who get it refuse it. IMU samples are put into order by themselves before (ImuSorter). Where the stamps of a sensor
-/// go back by a second or more, what follows belongs after everything of all sensors before their own such step; unless
-/// the clock has begun again, time goes on (ContinuousTime). Single samples with a wrong stamp are left out
+/// A sample is released once the IMU has advanced by the wait since; anything later is out of order, and
+/// rejected by the receiver. IMU samples are sorted separately before that (ImuSorter). Where the stamps of a sensor
+/// go back by a second or more, later samples belong after everything before the corresponding step of all sensors;
+/// unless the clock has restarted, time continues (ContinuousTime). Single samples with a wrong stamp are dropped
 /// (JumpFilter).
 
 #include <array>
@@ -26,14 +26,14 @@ namespace slipnav {
 
 using Sample = std::variant<ImuSample, WheelMotion, PositionFix, VelocityFix>;
 
-/// One queue per sensor; the earliest sample of all goes first. Samples come in stamps of the clock and go in
+/// One queue per sensor; the earliest sample of all goes first. Samples come in with clock stamps and go out in
 /// continuous time.
 class SampleMerger {
  public:
   using Sink = std::function<void(const Sample&)>;
 
   /// @param max_wait_s how late a sample may be, in stamps of the IMU
-  /// @param fix_jump of positions, where those of a slow receiver must not be late
+  /// @param fix_jump limit for positions, for which slow receivers need a larger one
   explicit SampleMerger(double max_wait_s, Nanoseconds fix_jump = JumpFilter<PositionFix>::kJump)
       : max_wait_(fromSeconds(max_wait_s)) {
     std::get<JumpFilter<PositionFix>>(filters_) = JumpFilter<PositionFix>(fix_jump);
@@ -41,13 +41,13 @@ class SampleMerger {
 
   void push(const Sample& sample);
 
-  /// Lets go what nothing can come before any more.
+  /// Releases everything that nothing can precede any more.
   void advance(const Sink& sink) { advance(newest_imu_, sink); }
-  /// The same, judged by an earlier stamp of the IMU.
+  /// The same, judged by an earlier IMU stamp.
   /// @param trusted newest stamp that nothing can have overtaken
   void advanceTrusting(Nanoseconds trusted, const Sink& sink) { advance({newest_imu_.session, trusted}, sink); }
 
-  /// Lets go everything.
+  /// Releases everything.
   void flush(const Sink& sink);
 
   /// Stamp of the newest IMU sample by the clock, 0 before the first.
@@ -55,16 +55,16 @@ class SampleMerger {
   /// The same in continuous time.
   Nanoseconds newestImuTime() const { return newest_imu_.stamp + offsetAfter(newest_imu_.session); }
 
-  /// What has to be added to stamps by the clock.
+  /// Offset to add to clock stamps.
   /// @param steps how often the clock had gone back before, for whatever reason
   Nanoseconds offsetAfter(std::size_t steps) const;
-  /// How the clock of the IMU was set back.
+  /// How the IMU clock was set back.
   const ContinuousTime& time() const { return time_; }
 
-  /// Samples that were left out for their stamps, of all sensors.
+  /// Samples dropped for their stamps, over all sensors.
   std::uint64_t leftOut() const;
 
-  /// IMU samples that were put back into order.
+  /// IMU samples that were put back in order.
   std::uint64_t overtaken() const { return imu_sorter_.overtaken(); }
 
  private:

@@ -5,7 +5,7 @@
 namespace slipnav {
 namespace {
 
-/// A mean rate at rest beyond so many σ of the configured bias is believed instead.
+/// A mean rate at rest more than this many σ from the configured bias is taken as the bias.
 constexpr double kSurprisingBias = 3.0;
 /// Above the rotation of any planet here, which every gyro at rest sees.
 constexpr double kPlanetRate_radps = 1e-4;

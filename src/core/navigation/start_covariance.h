@@ -1,5 +1,5 @@
 #pragma once
-/// What is not known of a start, and is tied together.
+/// Correlated uncertainty of a start.
 
 #include "core/base/square.h"
 #include "slipnav/core/earth/planet.h"
@@ -7,10 +7,10 @@
 
 namespace slipnav {
 
-/// What is left of the accelerometer's bias tilts the level by bias over gravity, and the two errors stay tied: the
-/// filter must not take the same specific force for news about both.
-/// @param attitudeOf the attitude as levelled with an accelerometer bias, body axes [m/s²]
-/// @param initial levelled with its own bias; the variance of that bias is moved from P's diagonal into the ties
+/// The residual accelerometer bias tilts the level by bias over gravity, and the two errors stay correlated: the
+/// filter must not take the same specific force as new information about both.
+/// @param attitudeOf attitude leveled with an accelerometer bias, body axes [m/s²]
+/// @param initial leveled with its own bias; the variance of that bias moves from P's diagonal into the correlation
 template <class AttitudeOf>
 void tieLevelToAccelBias(const Planet& planet, const AttitudeOf& attitudeOf, InitialState& initial) {
   constexpr double kStep_mps2 = 1e-3;
@@ -25,8 +25,8 @@ void tieLevelToAccelBias(const Planet& planet, const AttitudeOf& attitudeOf, Ini
   }
 }
 
-/// A rate at rest far beyond what was said of the bias is the bias. It only becomes the point that the filter begins
-/// from, as uncertain as it is far: the samples that it was taken from are still to come.
+/// A rate at rest far beyond the configured bias is the bias. It only becomes the filter's starting point, with a
+/// standard deviation equal to the difference: the filter has yet to see the samples it comes from.
 /// @param rate mean at rest, body axes [rad/s]
 void believeSurprisingBias(const Vector3& rate, InitialState& initial);
 

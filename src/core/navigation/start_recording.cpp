@@ -85,7 +85,7 @@ void StartRecording::trackRest(const WheelMotion& wheels) {
   }
 }
 
-/// The drive after a rest may not have led to a start, for want of fixes: then a later rest counts.
+/// The drive after a rest may not have produced a start because fixes were missing: then a later rest counts.
 void StartRecording::trackNextRest(bool at_rest, Nanoseconds stamp) {
   if (!at_rest) {
     next_ = Rest{};
@@ -101,7 +101,7 @@ void StartRecording::trackNextRest(bool at_rest, Nanoseconds stamp) {
   }
 }
 
-/// A drive so long that no start has come of it serves for nothing any more.
+/// A drive this long without a start is no longer useful.
 void StartRecording::forgetOld() {
   const Nanoseconds longest = fromSeconds(max_rest_s_ + kLongestDrive_s);
   if (imu_.back().stamp - imu_.front().stamp <= longest + kForgetAtOnce) {

@@ -8,19 +8,19 @@ namespace {
 
 constexpr int kBlockSamples = 16;
 constexpr double kBlock_s = 0.5;
-/// Stamps in whole microseconds, and the arithmetic of a driver, are no scatter.
+/// Stamps in whole microseconds, and the arithmetic of a driver, do not count as scatter.
 constexpr double kExact_s = 5e-6;
-/// Of the usual interval: clocks that are read when a sample is taken scatter by less.
+/// Relative to the usual interval: clocks read at the time of sampling scatter by less.
 constexpr double kQuietScatter = 0.05;
-/// Of the usual interval: what comes sooner after the sample before has waited together with it.
+/// Relative to the usual interval: a sample that follows sooner has waited together with its predecessor.
 constexpr double kTogether = 0.5;
 constexpr double kTooEarly = 0.5;
 constexpr std::size_t kMostHeld = 64;
-/// Of the usual interval, per sample: how fast the line is led to its new place.
+/// Relative to the usual interval, per sample: how fast the line converges to its new place.
 constexpr double kSlew = 0.01;
-/// Of the usual interval: corrected stamps are never closer together.
+/// Relative to the usual interval: minimum distance of corrected stamps.
 constexpr double kLeastStep = 0.25;
-/// Relative difference of two measures of the usual interval, above which samples are missing between.
+/// Relative difference of two measures of the usual interval, above which samples are missing in between.
 constexpr double kSamePace = 0.01;
 constexpr double kNewPace = 0.2;
 
@@ -69,7 +69,7 @@ void ImuClock::start(const ImuSample& sample) {
 }
 
 void ImuClock::push(const ImuSample& sample) {
-  if (newest_ && sample.stamp <= newest_->stamp - kSecond) {  // a source that has started again
+  if (newest_ && sample.stamp <= newest_->stamp - kSecond) {  // a source that has restarted
     restart();
   }
   if (!newest_) {
@@ -100,7 +100,7 @@ void ImuClock::push(const ImuSample& sample) {
   }
 }
 
-/// Uses a sample at once, or holds it until it is known why it is late.
+/// Uses a sample at once, or holds it until the reason for its delay is known.
 void ImuClock::follow(const ImuSample& sample) {
   if (isLate(timeOf(sample) - (line_s_ + period_s_))) {
     held_.push_back(sample);
@@ -109,7 +109,7 @@ void ImuClock::follow(const ImuSample& sample) {
   }
 }
 
-/// Samples that were held up have caught up; behind lost ones all stay late.
+/// Samples that were held up have caught up; after lost ones all stay late.
 void ImuClock::decide() {
   if (held_.empty()) {
     return;
@@ -145,7 +145,7 @@ void ImuClock::use(const ImuSample& sample, double lost_before) {
   }
   double ahead = 1.0 + lost_before;
   const double early_s = line_s_ + ahead * period_s_ - time_s;
-  if (early_s > kTooEarly * period_s_ + early_s_) {  // those that were taken for lost come after all
+  if (early_s > kTooEarly * period_s_ + early_s_) {  // those counted as lost arrive after all
     if (isExact()) {                                 // or here is one more than there is time for
       ready_.push_back(sample);
       ready_.back().stamp = released_;
@@ -190,7 +190,7 @@ void ImuClock::learn(double time_s, double deviation_s) {
 }
 
 void ImuClock::closeBlock() {
-  if (open_.least_s > late_limit_ * period_s_ + early_s_) {  // all of it: samples were lost among stamps that scatter
+  if (open_.least_s > late_limit_ * period_s_ + early_s_) {  // all of it: samples were lost among scattered stamps
     const double late = std::round(open_.least_s / period_s_);
     index_ += late;
     line_s_ += late * period_s_;

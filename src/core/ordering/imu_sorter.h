@@ -1,8 +1,8 @@
 #pragma once
-/// Puts IMU samples that have overtaken each other back into order.
+/// Puts IMU samples that overtook each other back in order.
 ///
-/// Where a sample seems to be missing, those after it wait until it has come, or until two of them wait: no transport
-/// that loses its order does so by much. So a lost sample delays an estimate by two intervals, and nothing else waits.
+/// Where a sample seems to be missing, later ones wait until it arrives, or until two of them wait: no transport
+/// reorders by more. So a lost sample delays an estimate by two intervals, and nothing else waits.
 
 #include <cstdint>
 
@@ -15,10 +15,10 @@ namespace slipnav {
 /// For one source; samples that are repeated or too late are passed on for others to judge.
 class ImuSorter {
  public:
-  /// Gives `sink` the samples whose turn it is.
+  /// Passes to `sink` the samples that are due.
   template <class Sink>
   void push(const ImuSample& sample, const Sink& sink) {
-    if (sample.stamp <= cadence_.newest() - kRestartBackstep) {  // a source that has started anew
+    if (sample.stamp <= cadence_.newest() - kRestartBackstep) {  // a source that has restarted
       release(0, sink);
       cadence_.restart(sample.stamp);
     }
@@ -31,7 +31,7 @@ class ImuSorter {
     release(kPlaces, sink);
   }
 
-  /// How many have been put back into order.
+  /// How many have been put back in order.
   std::uint64_t overtaken() const { return overtaken_; }
 
  private:
@@ -42,7 +42,7 @@ class ImuSorter {
   static constexpr std::size_t kPlaces = 2;
   static constexpr double kLongestInterval_s = 0.2;
 
-  /// Lets go what follows without a hole, and what is more than `places`.
+  /// Releases what follows without a hole, and anything beyond `places`.
   template <class Sink>
   void release(std::size_t places, const Sink& sink) {
     while (!waiting_.empty() && (waiting_.size() > places || !isAfterHole(waiting_.front()))) {

@@ -1,9 +1,9 @@
 #pragma once
-/// Keeps single samples with a wrong stamp from being taken for a jump of the clock.
+/// Keeps single samples with a wrong stamp from being taken for a clock jump.
 ///
-/// A sample whose stamp is a second or more away from those before it is held back until the next one comes. If that
-/// one goes on from the held sample, time has really jumped (a gap, or a source that has started anew) and both are
-/// let through; if it goes on from where the samples were before, the held one is left out.
+/// A sample whose stamp is a second or more away from its predecessors is held until the next one arrives. If that
+/// one continues from the held sample, time has really jumped (a gap, or a source that has restarted) and both are
+/// released; if it continues from the earlier samples, the held one is dropped.
 
 #include <cstdint>
 #include <optional>
@@ -22,7 +22,7 @@ class JumpFilter {
   /// @param jump another limit, for a source that is slower than one sample a second
   explicit JumpFilter(Nanoseconds jump = kJump) : jump_(jump) {}
 
-  /// Gives `sink` what may be used now: nothing, the sample, or the held one and the sample.
+  /// Passes to `sink` what may be used now: nothing, the sample, or the held one and the sample.
   template <class Sink>
   void push(const Sample& sample, const Sink& sink) {
     if (sample.stamp <= 0) {  // never set
@@ -42,13 +42,13 @@ class JumpFilter {
     }
   }
 
-  /// Samples that were not let through, since the beginning.
+  /// Number of dropped samples, since the beginning.
   std::uint64_t leftOut() const { return left_out_; }
 
  private:
   bool isNear(Nanoseconds stamp, Nanoseconds other) const { return stamp > other - jump_ && stamp < other + jump_; }
 
-  /// A slow sensor jumps with every sample, so any progress will do; but one that went back must not be ahead again.
+  /// A slow sensor jumps with every sample, so any progress is enough; but one that went back must not be ahead again.
   bool goesOnFromHeld(Nanoseconds stamp) const {
     const bool held_went_back = held_->stamp < newest_;
     return stamp > held_->stamp - jump_ && (!held_went_back || stamp < newest_);

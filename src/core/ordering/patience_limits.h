@@ -1,12 +1,12 @@
 #pragma once
-/// How long silence has to last in real time before it counts.
+/// How long silence must last in real time before it counts.
 
 namespace slipnav {
 
 /// [s] of the wall clock, on a rover.
 inline constexpr double kPatience_s = 0.2;
-/// [s] of the wall clock, where time is that of a recording or a simulation: on a machine that is busy with other
-/// things a message may be on its way for long, and no rover waits.
+/// [s] of the wall clock, where time is that of a recording or a simulation: on a busy machine
+/// a message may take long, and no rover is waiting.
 inline constexpr double kSimulatedPatience_s = 2.0;
 
 }  // namespace slipnav

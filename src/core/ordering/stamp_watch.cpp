@@ -9,9 +9,9 @@ namespace slipnav {
 namespace {
 
 constexpr int kMessages = 16;
-/// Longer than messages are on their way.
+/// Longer than messages take to arrive.
 constexpr double kApart_s = 0.5;
-/// Of the difference: what is on its way for that long does not come so evenly.
+/// Relative to the difference: a transport delay that long would not be so constant.
 constexpr double kEven = 0.2;
 /// GPS time is ahead of UTC by this since 2017.
 constexpr double kLeapSeconds_s = 18.0;

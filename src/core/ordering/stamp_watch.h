@@ -1,8 +1,8 @@
 #pragma once
-/// Sensors whose clocks do not agree, told by the order in which their messages come.
+/// Sensors whose clocks disagree, judged by the order in which their messages arrive.
 ///
-/// A message comes soon after it was stamped. So the stamp of any sensor is about that of the IMU message that came
-/// last. Where it differs by more than any transport takes, always by the same, the clocks are apart.
+/// A message arrives soon after it was stamped. So the stamp of any sensor is close to that of the latest IMU
+/// message. If it differs by more than any transport takes, always by the same amount, the clocks disagree.
 
 #include <map>
 #include <string>
@@ -12,18 +12,18 @@
 
 namespace slipnav {
 
-/// "stamps of A and B are 3.1 s apart", and a guess at the cause where there is one.
+/// "stamps of A and B are 3.1 s apart", and a likely cause if there is one.
 std::string clocksApart(const std::string& a, const std::string& b, double apart_s);
 
-/// For alarms only: what it says depends on the order of arrival.
+/// For alarms only: its result depends on the order of arrival.
 class StampWatch {
  public:
   explicit StampWatch(std::string imu_topic) : imu_topic_(std::move(imu_topic)) {}
 
   void noteImu(Nanoseconds stamp) { newest_imu_ = stamp; }
 
-  /// A message of another sensor has come.
-  /// @return what is wrong with its clock, said again every few messages; "" mostly
+  /// A message of another sensor has arrived.
+  /// @return what is wrong with its clock, repeated every few messages; otherwise ""
   std::string note(const std::string& topic, Nanoseconds stamp);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Checks that every field of a parameter struct holds what its visit() allows.
+/// Checks that every field of a parameter struct has a value its visit() allows.
 
 #include <string>
 #include <vector>
@@ -38,7 +38,7 @@ class ParameterChecker : public ParameterVisitor {
 /// "0 to 1", "at least 0", "at most 1", or "" for an unbounded range.
 std::string describeRange(const Range& range);
 
-/// What is wrong with a value ("must be 0 to 1, not 2"), or "" when nothing is. Shared by the checker and the readers.
+/// What is wrong with a value ("must be 0 to 1, not 2"), otherwise "". Shared by the checker and the readers.
 std::string complaintAbout(double value, const Range& range);
 std::string complaintAbout(const std::string& value, const std::vector<std::string>& options);
 

@@ -1,12 +1,12 @@
 #pragma once
-/// Where a visitor stands in nested parameter blocks, as the dotted key that a user would write.
+/// Position of a visitor in nested parameter blocks, as the dotted key that a user would write.
 
 #include <string>
 #include <vector>
 
 namespace slipnav {
 
-/// A stack of block names; what is entered is left in the reverse order.
+/// A stack of block names; blocks are left in the reverse order of entry.
 class ParameterPath {
  public:
   void enter(const std::string& name) { prefixes_.push_back(key(name)); }

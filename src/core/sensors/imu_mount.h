@@ -1,5 +1,5 @@
 #pragma once
-/// Where sensors sit on the vehicle, as users give it (REP-103: x forward, y left, z up), and the step into body axes.
+/// Sensor poses on the vehicle, as users give them (REP-103: x forward, y left, z up), and the conversion to body axes.
 
 #include "slipnav/core/base/sensors.h"
 #include "slipnav/core/parameters/parameter_visitor.h"
@@ -20,7 +20,7 @@ struct MountParams {
   Vector3 position_b() const { return {x_m, -y_m, -z_m}; }
 };
 
-/// Turns a sample from the sensor's own axes into the body axes of the vehicle.
+/// Rotates a sample from the sensor's own axes into the body axes of the vehicle.
 class ImuMount {
  public:
   explicit ImuMount(const MountParams& params);
@@ -28,7 +28,7 @@ class ImuMount {
   /// @param specific_force,angular_rate in the sensor's own axes [m/s²], [rad/s]
   ImuSample toBody(Nanoseconds stamp, const Vector3& specific_force, const Vector3& angular_rate) const;
 
-  /// A vector of the body axes in the sensor's own axes.
+  /// A body-axes vector in the sensor's own axes.
   Vector3 toSensor(const Vector3& v_b) const { return C_sensor_to_b_.transpose() * v_b; }
 
  private:

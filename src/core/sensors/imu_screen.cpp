@@ -6,7 +6,7 @@
 namespace slipnav {
 namespace {
 
-/// Far below the noise of any IMU, in SI units; a mounting by quarter turns leaves traces of the other axes.
+/// Far below the noise of any IMU, in SI units; a quarter-turn mounting leaves traces of the other axes.
 constexpr double kSame = 1e-9;
 
 }  // namespace
@@ -15,17 +15,16 @@ void ImuInputParams::visit(ParameterVisitor& v) {
   v.choice("sampling", sampling, {"mean", "instantaneous"},
            "whether a sample is the mean over the interval that ends at its stamp, or the value at its stamp");
   v.number("max_specific_force_mps2", max_specific_force_mps2, {1.0, 1e5},
-           "end of the range of each accelerometer: what reaches it is refused [m/s²]");
+           "range of each accelerometer: samples at its limit are rejected [m/s²]");
   v.number("max_rate_deg_per_s", max_rate_deg_per_s, {1.0, 1e6},
-           "end of the range of each gyro: what reaches it is refused [°/s]");
+           "range of each gyro: samples at its limit are rejected [°/s]");
   v.number("gap_factor", gap_factor, {1.5, 100.0}, "an interval longer than this many usual ones counts as a gap");
   v.number("max_bridged_gap_s", max_bridged_gap_s, {0.0, 60.0},
-           "over a shorter gap the IMU is taken to have gone on evenly; in a longer one, tilt and velocity to have "
-           "stayed [s]");
-  v.integer(
-      "stuck_samples", stuck_samples, {0.0, 1e6},
-      "an axis that repeats the very same value so often, while another of its kind changes, is stuck: samples are "
-      "refused until it moves; 0: never");
+           "over a shorter gap the IMU samples are averaged; over a longer one, tilt and velocity are assumed "
+           "constant [s]");
+  v.integer("stuck_samples", stuck_samples, {0.0, 1e6},
+            "an axis that repeats exactly the same value this often, while another changes, is stuck: samples are "
+            "rejected until it changes; 0: never");
 }
 
 const char* complaintOf(ImuVerdict verdict) {
@@ -33,13 +32,13 @@ const char* complaintOf(ImuVerdict verdict) {
     case ImuVerdict::kNotFinite:
       return "not a number or infinite";
     case ImuVerdict::kOutOfRange:
-      return "at the end of the sensor's range";
+      return "at the limit of the sensor's range";
     case ImuVerdict::kStuck:
-      return "an axis does not change any more";
+      return "with a stuck axis";
     case ImuVerdict::kNotNewer:
-      return "not newer than the sample before";
+      return "not newer than the previous one";
     case ImuVerdict::kTimeWentBack:
-      return "the clock went back";
+      return "with a clock that went back";
     case ImuVerdict::kAccepted:
     case ImuVerdict::kAfterGap:
       break;

@@ -6,14 +6,14 @@
 namespace slipnav {
 namespace {
 
-/// Several drivers may publish into one topic; a wheel that is in none of so many messages is not there.
+/// Several drivers may publish to one topic; a wheel missing from this many messages does not exist.
 constexpr int kMostOtherJoints = 10;
-/// Wheels that have turned this far while all velocities said zero: the velocities are not filled in.
+/// Wheels that have turned this far while all velocities were zero: the velocities are not filled in.
 constexpr double kTurnedWithoutVelocity_rad = 0.2;
-/// Angles are computed in single precision by some drivers.
+/// Some drivers compute angles in single precision.
 constexpr double kAngleSlack_rad = 1e-3;
 
-/// In quotes, with commas between.
+/// In quotes, separated by commas.
 std::string listOf(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) {
@@ -72,7 +72,7 @@ bool WheelDecoder::areFinite(const JointArrays& joints) const {
   });
 }
 
-/// Whether the velocities have turned out to be always zero while the positions move.
+/// Whether the velocities are always zero while the positions move.
 bool WheelDecoder::areFilledIn(const WheelSample& rates, const std::optional<WheelSample>& by_position) {
   const auto isZero = [](double rate) { return rate == 0.0; };
   seen_.velocity = seen_.velocity || !std::all_of(rates.rate_radps.begin(), rates.rate_radps.end(), isZero);

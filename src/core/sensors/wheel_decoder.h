@@ -1,5 +1,5 @@
 #pragma once
-/// Wheel rates from arrays of named joints, as sensor_msgs/JointState has them.
+/// Wheel rates from arrays of named joints, as in sensor_msgs/JointState.
 
 #include <optional>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace slipnav {
 
-/// One message: arrays are empty or as long as `names`. With no names at all, values stand in the order of the
-/// configured wheels, and so they do for wheels that are configured without a name.
+/// One message: arrays are empty or as long as `names`. Without names, values are in the order of the
+/// configured wheels, as they are for wheels configured without a name.
 struct JointArrays {
   Nanoseconds stamp = 0;
   const std::vector<std::string>& names;
@@ -19,35 +19,35 @@ struct JointArrays {
   const std::vector<double>& velocity_radps;
 };
 
-/// Finds the configured wheels in each message, and remembers the one before to difference positions.
+/// Finds the configured wheels in each message, and remembers the previous one to difference positions.
 class WheelDecoder {
  public:
-  /// @param max_speed_mps a wheel that goes faster at its circumference has not been read rightly
+  /// @param max_speed_mps a faster circumferential speed is a reading error
   WheelDecoder(std::vector<WheelParams> wheels, double max_speed_mps)
       : wheels_(std::move(wheels)), max_speed_mps_(max_speed_mps) {}
 
-  /// Rates by the velocities, or where there are none by the difference of positions to the message before; positive
-  /// forward. Nothing for a message that cannot be used, with the reason in problem(), and nothing without a problem
-  /// for the first of a series of positions and for messages of other joints. A message that cannot be used leaves the
-  /// decoder as it was, but for one whose positions have jumped, as those of an encoder that has overflowed: the next
-  /// is differenced to it.
+  /// Rates from the velocities, or without velocities from the difference of positions to the previous message;
+  /// positive forward. Nothing for an unusable message, with the reason in problem(), and nothing without a problem for
+  /// the first of a series of positions and for messages of other joints. An unusable message leaves the decoder
+  /// unchanged, except when its positions have jumped, like those of an encoder that has overflowed: the next one is
+  /// differenced to it.
   ///
-  /// Positions serve as well for a message whose velocities are not finite, and once these have been zero while the
-  /// positions moved. Positions that never leave one turn (-π to π, or 0 to 2π) are taken to wrap: of the two ways
-  /// between them the shorter one counts. A message that is a second older than those before it begins anew.
+  /// Positions are also used for a message whose velocities are not finite, and once these have been zero while the
+  /// positions moved. Positions that never leave one turn (-π to π, or 0 to 2π) are assumed to wrap: of the two ways
+  /// between them the shorter one counts. A message that is a second older than its predecessors restarts the decoder.
   std::optional<WheelSample> decode(const JointArrays& joints);
 
-  /// What was wrong with the last message, "" when nothing.
+  /// What was wrong with the last message, otherwise "".
   const std::string& problem() const { return problem_; }
 
-  /// What is to be said once about what the messages are like, with the first message that shows it; else "".
+  /// A remark on what the messages are like, reported once, with the first message that shows it; otherwise "".
   const std::string& remark() const { return remark_; }
 
  private:
-  /// What the messages have been like since the clock began.
+  /// What the messages have been like since the clock started.
   struct Seen {
     Nanoseconds newest = 0;
-    std::optional<WheelSample> angles;  ///< of the message before [rad], in place of rates
+    std::optional<WheelSample> angles;  ///< of the previous message [rad], in place of rates
     double interval_s = 0.0;            ///< between the last two positions
     double turned_rad = 0.0;            ///< by positions, while all velocities were zero
     bool velocity = false;              ///< one that is not zero
@@ -72,7 +72,7 @@ class WheelDecoder {
   std::vector<WheelParams> wheels_;
   double max_speed_mps_;
   std::vector<std::string> names_;    ///< of the message that `indices_` belongs to
-  std::vector<std::size_t> indices_;  ///< where each wheel stands in the arrays
+  std::vector<std::size_t> indices_;  ///< position of each wheel in the arrays
   Seen seen_;
   int other_joints_ = 0;  ///< messages without any of the wheels, before the first with them
   std::string remark_;

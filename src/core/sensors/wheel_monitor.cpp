@@ -17,12 +17,12 @@ double medianOf(std::array<double, kMaxWheels> values, std::size_t n) {
 
 void WheelMonitorParams::visit(ParameterVisitor& v) {
   v.number("max_speed_mps", max_speed_mps, {0.0, 100.0},
-           "a wheel that is faster at its circumference has not been read rightly: the message is left out [m/s]");
+           "a faster circumferential speed is a reading error: the message is rejected [m/s]");
   v.number("difference_mps", difference_mps, {0.0, 100.0},
-           "a wheel that differs from the others by more than this and the next is suspect [m/s]");
-  v.number("difference_ratio", difference_ratio, {0.0, 100.0}, "part of the vehicle's speed that is added to it");
+           "a wheel that differs from the others by more than this plus the next is suspect [m/s]");
+  v.number("difference_ratio", difference_ratio, {0.0, 100.0}, "fraction of the vehicle's speed that is added to it");
   v.number("time_s", time_s, {0.0, 1e3},
-           "a wheel that is suspect for so long is left out until it has agreed as long [s]");
+           "a wheel that is suspect for this long is excluded until it has agreed as long [s]");
 }
 
 WheelMonitor::WheelMonitor(const WheelMonitorParams& params, const std::vector<WheelParams>& wheels) : params_(params) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Slip of the whole vehicle over one wheel interval, as the filter sees it.
+/// Slip of the whole vehicle over one wheel interval, as estimated by the filter.
 
 #include <array>
 #include <optional>
@@ -17,7 +17,7 @@ struct VehicleSlip {
   Nanoseconds stamp = 0;  ///< end of the interval
   double duration_s = 0.0;
   double forward_mps = 0.0;                             ///< of the vehicle over ground
-  std::optional<double> mean_ratio;                     ///< mean wheel speed against forward speed
+  std::optional<double> mean_ratio;                     ///< mean wheel speed relative to forward speed
   std::optional<double> angle_rad;                      ///< from body x to the course, positive to the right
   std::size_t count = 0;                                ///< number of wheels below
   std::array<std::optional<double>, kMaxWheels> ratio;  ///< of each wheel against the speed over ground at its place

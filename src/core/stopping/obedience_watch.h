@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a rover that is told to stop does.
+/// Whether a rover that is told to stop actually does.
 
 #include <optional>
 
@@ -7,13 +7,13 @@
 
 namespace slipnav {
 
-/// Compares what the rover is told with what the estimate says, as long as it is told to slow down.
+/// Compares the commanded speed with the estimate, as long as the rover is told to slow down.
 class ObedienceWatch {
  public:
-  /// @param told_mps the speed that the rover is told, magnitude; nothing while it is not being stopped
+  /// @param told_mps the commanded speed, magnitude; nothing while it is not being stopped
   void observe(std::optional<double> told_mps, const RoverObservation& observation);
 
-  /// It has been driving clearly faster than it is told for as long as no rover needs to follow.
+  /// It has been clearly faster than commanded for longer than any rover needs to follow.
   bool isIgnored() const { return ignored_; }
 
  private:

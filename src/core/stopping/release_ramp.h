@@ -1,16 +1,16 @@
 #pragma once
-/// Lets a rover go on after a stop, without a jump of what it is told.
+/// Lets a rover resume after a stop, without a jump in its command.
 
 #include "core/stopping/velocity_command.h"
 
 namespace slipnav {
 
-/// Multiplies commands by a factor that rises from zero to one, no faster than both limits allow; never more than what
-/// is commanded, and with its sign. It ends with the factor one, or with a zero command: then the operator begins
+/// Multiplies commands by a factor that rises from zero to one, no faster than both limits allow; never more than
+/// commanded, and with the same sign. It ends with the factor one, or with a zero command: then the operator starts
 /// again.
 class ReleaseRamp {
  public:
-  /// The rover may go on. Before the first call, commands pass.
+  /// The rover may resume. Before the first call, commands pass.
   void begin(Nanoseconds stamp);
   /// Commands pass from now on.
   void end() { factor_ = 1.0; }

@@ -1,5 +1,5 @@
 #pragma once
-/// How long the rover has been standing, and whether it is standing at all while its wheels do.
+/// How long the rover has been standing, and whether it stands at all while its wheels are at rest.
 
 #include <optional>
 
@@ -15,7 +15,7 @@ class Standstill {
   bool isStanding() const { return standing_; }
   /// Accepted in this standstill.
   int zeroUpdates() const { return zero_updates_; }
-  /// How long the wheels have been standing without the filter accepting a standstill [s].
+  /// How long the wheels have been at rest without the filter accepting a standstill [s].
   double unacceptedRest_s() const { return unaccepted_since_ ? toSeconds(newest_ - *unaccepted_since_) : 0.0; }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// How far the supervisor may go: nothing, words, or deeds.
+/// How far the supervisor may go: nothing, advice, or action.
 enum class StopMode { kOff, kAdvise, kActive };
 
 /// Block `stop`.

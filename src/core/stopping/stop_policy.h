@@ -8,11 +8,11 @@
 
 namespace slipnav {
 
-/// What a policy that goes by the clock may know about the drive, at the begin of a control interval.
+/// What a clock-driven policy may know about the drive, at the start of a control interval.
 struct DriveMoment {
   Nanoseconds stamp = 0;
   bool standstill = false;  ///< the rover stands
-  bool on_route = false;    ///< the initialisation drive is over
+  bool on_route = false;    ///< the initialization drive is over
 };
 
 /// Stands between the simulated operator and the simulated rover.
@@ -21,23 +21,23 @@ class StopPolicy {
   virtual ~StopPolicy() = default;
 
   /// Asked once per control interval, with stamps in ascending order.
-  /// @param in what the operator commands
-  /// @return what the rover is told in its place
+  /// @param in the operator's command
+  /// @return the command given to the rover instead
   virtual VelocityCommand command(const VelocityCommand& in, const DriveMoment& moment) = 0;
 
   /// Each estimate of the navigation, in order.
   virtual void observe(const RoverObservation&) {}
-  /// Each forecast, after the estimate that it was made with.
+  /// Each forecast, after the estimate it was made with.
   virtual void setForecast(const StopForecast&) {}
 };
 
-/// Drives on whatever happens.
+/// Always drives on.
 class NeverStop : public StopPolicy {
  public:
   VelocityCommand command(const VelocityCommand& in, const DriveMoment&) override { return in; }
 };
 
-/// Drives for `every_s`, stops, stands for `hold_s`, and so on (Kilic et al. 2019), from the begin of the route.
+/// Drives for `every_s`, stops, stands for `hold_s`, and so on (Kilic et al. 2019), from the start of the route.
 class PeriodicStops : public StopPolicy {
  public:
   /// Throws std::invalid_argument unless both are above zero.

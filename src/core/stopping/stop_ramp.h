@@ -1,19 +1,19 @@
 #pragma once
-/// Brings a rover to rest from whatever it is commanded.
+/// Brings a rover to rest from any command.
 
 #include "core/stopping/velocity_command.h"
 
 namespace slipnav {
 
-/// Multiplies commands by a factor that falls from one to zero, as fast as both limits of deceleration allow, so that
-/// the rover slows down along the arc that the operator steers. What comes out never exceeds what goes in, has its
+/// Multiplies commands by a factor that falls from one to zero, as fast as both deceleration limits allow, so that
+/// the rover slows down along the arc the operator steers. The output never exceeds the input, has its
 /// sign, and its linear speed never grows; a zero command is zero at once, and nothing moves the rover again after it.
 class StopRamp {
  public:
   StopRamp(double deceleration_mps2, double angular_deceleration_radps2)
       : deceleration_mps2_(deceleration_mps2), angular_deceleration_radps2_(angular_deceleration_radps2) {}
 
-  /// Other limits from now on, in a stop that is under way as well.
+  /// Other limits from now on, also for a stop in progress.
   void retune(double deceleration_mps2, double angular_deceleration_radps2) {
     deceleration_mps2_ = deceleration_mps2;
     angular_deceleration_radps2_ = angular_deceleration_radps2;
@@ -22,7 +22,7 @@ class StopRamp {
   /// A stop begins. @param linear_speed_mps what was last commanded, magnitude
   void begin(Nanoseconds stamp, double linear_speed_mps);
 
-  /// The command to give at `stamp` in place of `in`.
+  /// The command to give at `stamp` instead of `in`.
   VelocityCommand shorten(const VelocityCommand& in, Nanoseconds stamp);
 
  private:

@@ -8,7 +8,7 @@ namespace slipnav {
 namespace {
 
 constexpr double kNever_s = std::numeric_limits<double>::infinity();
-/// A stop farther away than any forecast reaches is none; its stamp could overflow.
+/// A stop beyond the reach of any forecast does not count; its stamp could overflow.
 constexpr double kFarthestStop_s = 1e6;
 
 std::string seconds(double s) {
@@ -64,7 +64,7 @@ void StopSupervisor::observe(const RoverObservation& observation) {
     return;
   }
   has_estimates_ = true;
-  requested_ -= std::max<Nanoseconds>(0, clock_ - observation.stamp);  // what has passed without estimates counts
+  requested_ -= std::max<Nanoseconds>(0, clock_ - observation.stamp);  // time without estimates counts
   newest_ = observation;
   clock_ = observation.stamp;
   status_.stamp = observation.stamp;
@@ -96,7 +96,8 @@ void StopSupervisor::setForecast(const StopForecast& forecast) {
   if (!in_order || forecast.stamp > newest_.stamp || std::isnan(forecast.time_to_stop_s)) {
     return;
   }
-  forecast_ = {forecast.stamp, std::max(0.0, forecast.time_to_stop_s)};
+  const bool kept = forecast.kept_s > 0.0 && forecast.kept_s < kFarthestStop_s;  // neither is NaN
+  forecast_ = {forecast.stamp, std::max(0.0, forecast.time_to_stop_s), kept ? forecast.kept_s : 0.0};
   advance();
 }
 
@@ -127,7 +128,7 @@ std::string StopSupervisor::stopNow() {
   if (obstacle() != nullptr) {
     return obstacle();
   }
-  requestStop("the operator wants a stop");
+  requestStop("the operator requests a stop");
   advance();
   return "";
 }
@@ -178,7 +179,7 @@ bool StopSupervisor::hasConverged() const {
          newest_.speed_std_mps <= params_.converged_speed_std_mps;
 }
 
-/// Goes through the states in their order, so that one observation may take the supervisor through several.
+/// Goes through the states in order, so that one observation may advance the supervisor by several.
 void StopSupervisor::advance() {
   watchForecasts();
   if (!isStopping()) {
@@ -193,11 +194,12 @@ void StopSupervisor::advance() {
 }
 
 void StopSupervisor::watchForecasts() {
-  const Nanoseconds since = forecast_ ? std::max(forecast_->stamp, driving_since_) : driving_since_;
+  const bool holds = forecast_ && forecast_->stamp >= driving_since_;
+  const Nanoseconds since = holds ? forecast_->stamp + fromSeconds(forecast_->kept_s) : driving_since_;
   status_.forecasts_stale = has_estimates_ && toSeconds(newest_.stamp - since) > params_.forecast_timeout_s;
 }
 
-/// What keeps the supervisor from making any stop, nothing when nothing does.
+/// What keeps the supervisor from making any stop, null if nothing does.
 const char* StopSupervisor::obstacle() const {
   if (mode_ == StopMode::kOff) {
     return "the supervisor is off";
@@ -211,7 +213,7 @@ const char* StopSupervisor::obstacle() const {
   return status_.overridden ? "overridden by the operator" : nullptr;
 }
 
-/// Nothing when there is a plan.
+/// Null if there is a plan.
 const char* StopSupervisor::whyNoPlan() const {
   if (obstacle() != nullptr || status_.forecasts_stale) {
     return obstacle();
@@ -219,7 +221,7 @@ const char* StopSupervisor::whyNoPlan() const {
   if (!forecast_ || forecast_->stamp < driving_since_) {
     return "no forecast since the last stop";
   }
-  return forecast_->time_to_stop_s < kFarthestStop_s ? nullptr : "no stop within the horizon of the forecast";
+  return forecast_->time_to_stop_s < kFarthestStop_s ? nullptr : "no stop within the forecast horizon";
 }
 
 std::optional<StopSupervisor::Plan> StopSupervisor::plan() const {
@@ -229,10 +231,10 @@ std::optional<StopSupervisor::Plan> StopSupervisor::plan() const {
   if (status_.forecasts_stale) {
     return Plan{driving_since_ + fromSeconds(params_.fallback_interval_s), "no new forecast: periodic stop"};
   }
-  return Plan{forecast_->stamp + fromSeconds(forecast_->time_to_stop_s), "the position error comes to its threshold"};
+  return Plan{forecast_->stamp + fromSeconds(forecast_->time_to_stop_s), "the position error reaches its threshold"};
 }
 
-/// From the present speed to rest; a stop begins so much earlier.
+/// From the present speed to rest; a stop starts this much earlier.
 double StopSupervisor::brakingTime_s() const {
   return std::isfinite(newest_.forward_mps) ? std::abs(newest_.forward_mps) / params_.deceleration_mps2 : 0.0;
 }
@@ -281,7 +283,7 @@ void StopSupervisor::considerHold() {
       ++status_.stops;
     }
   } else if (standstill_.unacceptedRest_s() >= params_.slide_after_s) {
-    giveUp("the rover slides: its wheels stand, but it does not");
+    giveUp("the rover slides: its wheels are at rest, but it is not");
   } else if (mode_ == StopMode::kActive && toSeconds(clock_ - requested_) >= params_.max_stop_s) {
     giveUp("the rover does not come to rest within " + seconds(params_.max_stop_s));
   }
@@ -295,11 +297,11 @@ void StopSupervisor::considerRelease() {
   } else if (held_s >= params_.max_hold_s) {
     release("held for " + seconds(held_s));
   } else if (!standstill_.isStanding() && mode_ == StopMode::kAdvise) {
-    release("driven on before the velocity had converged");
+    release("resumed before the velocity had converged");
   } else if (!standstill_.isStanding()) {
     status_.state = StopState::kStopping;
     status_.time_left_s = 0.0;
-    status_.reason = "the standstill is not accepted any more";
+    status_.reason = "the standstill is no longer accepted";
   }
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-/// What an operator asks of the rover, and what the rover is told to do.
+/// What an operator asks of the rover, and the command it gets.
 
 #include "slipnav/core/base/types.h"
 
 namespace slipnav {
 
-/// Velocity of the vehicle, in whatever axes the command is given: whoever passes it on only shortens it.
+/// Velocity of the vehicle, in whatever axes the command is given: it is only ever scaled down.
 struct VelocityCommand {
   Vector3 linear_mps = Vector3::Zero();
   Vector3 angular_radps = Vector3::Zero();

@@ -9,14 +9,14 @@
 namespace slipnav {
 namespace {
 
-/// What a bag must have for a calibration is not what the configured start and updates ask for.
+/// A calibration has other requirements on a bag than the configured start and updates.
 Config forCalibration(Config config) {
   config.initialization.source = "given";
   config.filter.updates = FilterParams{}.updates;
   return config;
 }
 
-/// Truth in a frame of its own, laid about the configured start: where north is matters only for the planet's rotation.
+/// Truth in its own frame, placed about the configured start: north matters only for the planet's rotation.
 PositionFix toFix(const TruthSample& sample, const LocalFrame& frame) {
   PositionFix fix;
   fix.stamp = sample.stamp;

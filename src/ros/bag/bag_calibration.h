@@ -8,14 +8,14 @@
 
 namespace slipnav {
 
-/// The calibration of a recording, and the configuration that it started from.
+/// The calibration of a recording, and the configuration it started from.
 struct BagCalibration {
-  Config config;  ///< as it was used, with the poses of the sensors that the recording says
+  Config config;  ///< as used, with the sensor poses from the recording
   CalibrationResult result;
 };
 
 /// @param truth topic or RTKLIB file (.pos) of the truth; "" for what the recording has, see BagReader
-/// Throws std::invalid_argument that names the recording and says what is missing.
+/// Throws std::invalid_argument that names the recording and what is missing.
 BagCalibration calibrateBag(const std::string& path, const Config& config, const std::string& truth,
                             const BagRange& range);
 

@@ -16,7 +16,7 @@
 namespace slipnav {
 namespace {
 
-/// Processor and wall time since it was made.
+/// Processor and wall time since construction.
 class Stopwatch {
  public:
   double cpu() const { return static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC; }
@@ -33,7 +33,7 @@ void addTruthFrom(const std::string& path, Nanoseconds begin, OfflineRun& run, B
     if (solution.solved()) {
       run.addTruthFix(solution.fix);
     } else {
-      Alarm& rows = evaluation.problems[path + " has rows " + solution.flaw + ": left out"];
+      Alarm& rows = evaluation.problems[path + " has rows " + solution.flaw + ": skipped"];
       rows.first = rows.last = begin;
       ++rows.count;
     }
@@ -73,7 +73,7 @@ class TruthInContinuousTime {
   std::vector<std::pair<std::size_t, TruthSample>> poses_;
 };
 
-/// Notes what is wrong with its stamp.
+/// Notes problems with its stamp.
 void push(const Sample& sample, SampleMerger& merger, HealthMonitor& health) {
   const std::uint64_t left_out = merger.leftOut();
   const std::uint64_t overtaken = merger.overtaken();
@@ -93,7 +93,7 @@ void push(const Sample& sample, SampleMerger& merger, HealthMonitor& health) {
 void noteTruthLeftOut(BagEvaluation& evaluation) {
   if (evaluation.report.metrics.truth_left_out > 0) {
     const Nanoseconds begin = evaluation.begin;
-    evaluation.problems["truth rows far off the rows about them: left out"] = {
+    evaluation.problems["truth rows far off their neighbors: rejected"] = {
         begin, begin, static_cast<std::uint64_t>(evaluation.report.metrics.truth_left_out)};
   }
 }
@@ -132,14 +132,14 @@ void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluati
   evaluation.alarms.insert(evaluation.problems.begin(), evaluation.problems.end());
 }
 
-/// "; what was wrong most often", or "".
+/// "; most frequent problem", or "".
 std::string mostFrequent(const Alarms& problems) {
   const auto most = std::max_element(problems.begin(), problems.end(),
                                      [](const auto& a, const auto& b) { return a.second.count < b.second.count; });
   return most == problems.end() ? "" : "; " + most->first;
 }
 
-/// The report, or NoStart with what was wrong.
+/// The report, or NoStart with the problems.
 void finish(const OfflineRun& run, const TruthAlignment& alignment, BagEvaluation& evaluation) {
   if (!run.hasEstimates()) {
     const std::string failure = run.failure() + mostFrequent(evaluation.problems);
@@ -150,6 +150,14 @@ void finish(const OfflineRun& run, const TruthAlignment& alignment, BagEvaluatio
   evaluation.report = run.finish(alignment);
   noteTruthLeftOut(evaluation);
   noteFindings(evaluation);
+}
+
+void plot(std::vector<std::string> command) {
+  command.insert(command.begin(), packageExecutable("plot_report.py"));
+  ChildProcess plotter(command);
+  if (plotter.wait() != 0) {
+    throw std::runtime_error("the plots could not be made");
+  }
 }
 
 }  // namespace
@@ -209,12 +217,9 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   return result;
 }
 
-void plotReport(const std::string& directory) {
-  ChildProcess plotter({packageExecutable("plot_report.py"), directory});
-  if (plotter.wait() != 0) {
-    throw std::runtime_error("the plots could not be made");
-  }
-}
+void plotReport(const std::string& directory) { plot({directory}); }
+
+void plotStop(const std::string& directory, int number) { plot({directory, "--figure", std::to_string(number)}); }
 
 std::string runName(const std::string& path) {
   const std::string file = path.substr(path.find_last_of('/') + 1);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr char kFirstLine[] = "#ROSBAG V2.0\n";
 
-/// A chunk is not unpacked when it claims to become larger than its method can make it: LZ4 spends a byte on 255, BZ2
+/// A chunk is not unpacked if it claims to become larger than its method allows: LZ4 spends a byte on 255, BZ2
 /// at least 32 bytes on a block of 900 kB.
 constexpr std::uint64_t kLargestGrowthLz4 = 256;
 constexpr std::uint64_t kLargestGrowthBz2 = 28200;
@@ -43,24 +43,24 @@ std::vector<std::uint8_t> unpack(const std::string& method, std::vector<std::uin
   throw BagDamage("a chunk is packed in an unknown way");
 }
 
-/// How recordings of ROS 2 are stored.
+/// How ROS 2 recordings are stored.
 struct Ros2Format {
-  std::string magic;  ///< the file begins so
+  std::string magic;  ///< first bytes of the file
   std::string name;
-  std::string types;  ///< option that says which types it holds; those before MCAP do not say it themselves
+  std::string types;  ///< option that names its message types; formats before MCAP do not contain them
 };
 
 const std::array<Ros2Format, 2> kFormatsOfRos2 = {
     {{"\x89MCAP", "MCAP", ""}, {"SQLite format", "SQLite3", " --src-typestore ros2_humble"}}};
 
-/// What it is, and the command that makes a recording of ROS 1 of it. @param path of the file or its folder
+/// Names the format and the command that converts it to ROS 1. @param path of the file or its folder
 std::string toConvert(const std::string& path, const Ros2Format& format) {
   const std::filesystem::path source = std::filesystem::path(path + "/.").lexically_normal().parent_path();
   return "is a recording of ROS 2 (" + format.name + "); convert it: pip install rosbags && rosbags-convert --src " +
          path + format.types + " --dst " + source.stem().string() + ".bag --dst-typestore ros1_noetic";
 }
 
-/// What a folder is, in whose place a file is wanted.
+/// Complaint about a folder given in place of a file.
 std::string complaintOfFolder(const std::string& path) {
   std::ifstream file(path + "/metadata.yaml");
   if (!file) {
@@ -104,13 +104,13 @@ void BagFile::readAll() {
     }
   }
   if (!std::equal(beginning.begin(), beginning.end(), first_line.begin())) {
-    throw BagDamage("it is of another format than 2.0");
+    throw BagDamage("its format is not 2.0");
   }
   const BagFields header = file_.takeFields();
   header.require(BagOp::kFileHeader);
   const auto index_place = header.number<std::uint64_t>("index_pos");
   if (index_place == 0) {
-    fail("has no index, the recording was cut off; rosbag reindex may mend it");
+    fail("has no index, the recording was cut off; rosbag reindex may repair it");
   }
   if (!header.text("encryptor").empty()) {
     fail("is encrypted; rosbag decrypt makes a copy that can be read");
@@ -119,7 +119,7 @@ void BagFile::readAll() {
   for (auto left = header.number<std::uint32_t>("conn_count"); left > 0; --left) {
     readConnection();
   }
-  std::map<std::uint64_t, std::uint32_t> chunks;  // the topics of each, by its place
+  std::map<std::uint64_t, std::uint32_t> chunks;  // topics of each, by its position
   for (auto left = header.number<std::uint32_t>("chunk_count"); left > 0; --left) {
     chunks.insert(readChunkPlace());
   }
@@ -169,7 +169,7 @@ void BagFile::addEntry(ByteReader& bytes, std::uint64_t chunk, std::uint32_t con
   const Nanoseconds seconds = bytes.number<std::uint32_t>();
   const Nanoseconds time = seconds * kSecond + bytes.number<std::uint32_t>();
   const auto offset = bytes.number<std::uint32_t>();
-  if (time > 0) {  // rosbag leaves the others out, too
+  if (time > 0) {  // rosbag skips the others, too
     entries_.push_back({time, chunk, offset, connection_id, 0});
   }
 }
@@ -191,7 +191,7 @@ ByteReader BagFile::content(const BagEntry& entry) {
   ByteReader bytes(chunk_);
   bytes.take(entry.offset);
   BagFields record = takeFields(bytes);
-  while (record.op() == BagOp::kConnection) {  // stands before the first message of its topic
+  while (record.op() == BagOp::kConnection) {  // precedes the first message of its topic
     bytes.take(bytes.number<std::uint32_t>());
     record = takeFields(bytes);
   }

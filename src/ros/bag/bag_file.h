@@ -1,8 +1,8 @@
 #pragma once
-/// Recordings as they lie on disk: messages by time.
+/// Recordings as stored on disk: messages by time.
 ///
-/// rosbag takes the lengths and places in a file as they stand: where one is damaged, it asks for up to 4 GB or reads
-/// beyond its memory, and ends the program. Here everything is held against what the file has.
+/// rosbag trusts the lengths and offsets in a file: where one is corrupted, it requests up to 4 GB or reads
+/// beyond its memory, and ends the program. Here everything is checked against the file's contents.
 
 #include <ros/serialization.h>
 
@@ -24,33 +24,33 @@ struct BagConnection {
   std::string md5sum;  ///< of the definition of its messages
 };
 
-/// Where a message is.
+/// Location of a message.
 struct BagEntry {
   Nanoseconds time = 0;             ///< of its recording
-  std::uint64_t chunk = 0;          ///< place of its chunk in the file
+  std::uint64_t chunk = 0;          ///< position of its chunk in the file
   std::uint32_t offset = 0;         ///< of its record in the chunk
   std::uint32_t connection_id = 0;  ///< of the topic
-  std::size_t part = 0;             ///< of a recording of several files, see BagParts
+  std::size_t part = 0;             ///< of a recording in several files, see BagParts
 };
 
-/// A recording of format 2.0, plain, by LZ4 or by BZ2, that is complete and not encrypted. Errors are
-/// std::invalid_argument of one line that names the file.
+/// A complete, unencrypted recording of format 2.0, plain or compressed by LZ4 or BZ2. Errors are
+/// std::invalid_argument with one line that names the file.
 class BagFile {
  public:
   explicit BagFile(const std::string& path);
 
-  /// All messages in the order of their recording.
+  /// All messages in recording order.
   const std::vector<BagEntry>& entries() const { return entries_; }
   const std::map<std::uint32_t, BagConnection>& connections() const { return connections_; }
   const BagConnection& connection(const BagEntry& entry) const { return connections_.at(entry.connection_id); }
 
-  /// Whether the message is one of these, as this package knows them.
+  /// Whether the message has this type, as known to this package.
   template <class Message>
   bool holds(const BagEntry& entry) const {
     return connection(entry).md5sum == ros::message_traits::md5sum<Message>();
   }
 
-  /// The message, which must be one of these.
+  /// The message, which must have this type.
   template <class Message>
   Message read(const BagEntry& entry) {
     if (!holds<Message>(entry)) {
@@ -83,16 +83,16 @@ class BagFile {
   RecordFile file_;
   std::map<std::uint32_t, BagConnection> connections_;
   std::vector<BagEntry> entries_;
-  std::uint64_t loaded_chunk_ = 0;  ///< place in the file; 0 for none
+  std::uint64_t loaded_chunk_ = 0;  ///< position in the file; 0 for none
   std::vector<std::uint8_t> chunk_;
 };
 
-/// One recording in several files, as `rosbag record --split` leaves it. Each may have its own numbers of topics.
+/// One recording in several files, as `rosbag record --split` leaves it. Each may number its topics differently.
 class BagParts {
  public:
   explicit BagParts(const std::vector<std::string>& paths);
 
-  /// All messages of all parts in the order of their recording.
+  /// All messages of all parts in recording order.
   const std::vector<BagEntry>& entries() const { return entries_; }
   /// Of all parts.
   std::vector<BagConnection> connections() const;

@@ -19,7 +19,7 @@
 namespace slipnav {
 namespace {
 
-/// Messages of one topic that cannot be read: no more are tried.
+/// After this many unreadable messages of one topic no more are tried.
 constexpr std::size_t kMostDamaged = 5;
 
 std::string bare(const std::string& frame) {
@@ -76,7 +76,7 @@ class RecordingReader {
     }
   }
 
-  /// A message that is damaged says so, and the next one is tried.
+  /// Reports a damaged message, and the next one is tried.
   void take(BagFile& bag, const BagEntry& entry) {
     const std::string& topic = bag.connection(entry).topic;
     try {
@@ -197,7 +197,7 @@ class RecordingReader {
   std::set<std::pair<std::string, std::string>> seen_transforms_;
 };
 
-/// The files by when they begin.
+/// The files in order of their start.
 std::vector<std::string> inOrderOfTime(const std::vector<std::string>& paths) {
   std::vector<std::pair<Nanoseconds, std::string>> begins;
   for (const std::string& path : paths) {

@@ -71,7 +71,7 @@ std::vector<TumPose> readPoses(const std::vector<std::string>& paths, const std:
     const std::optional<TumPose> found = poseOf(bag, entry);
     if (!found) {
       throw std::invalid_argument(paths.front() + ": '" + topic + "' is of type " + type +
-                                  ", which is none of nav_msgs/Odometry, geometry_msgs/PoseStamped, "
+                                  ", which is not one of nav_msgs/Odometry, geometry_msgs/PoseStamped, "
                                   "geometry_msgs/PoseWithCovarianceStamped, geometry_msgs/TransformStamped");
     }
     if (isPose(*found)) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Poses that somebody else has left in a recording.
+/// Poses from another system in a recording.
 
 #include <string>
 #include <vector>
@@ -9,9 +9,9 @@
 namespace slipnav {
 
 /// All poses of a topic by their header's stamp: nav_msgs/Odometry, geometry_msgs/PoseStamped,
-/// geometry_msgs/PoseWithCovarianceStamped or geometry_msgs/TransformStamped. Poses that are not finite are left out.
+/// geometry_msgs/PoseWithCovarianceStamped or geometry_msgs/TransformStamped. Poses that are not finite are skipped.
 /// @param paths the parts of one recording
-/// Throws std::invalid_argument that names the topic when there is none such, or none with poses.
+/// Throws std::invalid_argument that names the topic if there is none, or none with poses.
 std::vector<TumPose> readPoses(const std::vector<std::string>& paths, const std::string& topic);
 
 }  // namespace slipnav

@@ -41,7 +41,7 @@ struct BagReader::Parts {
   Config config;
   BagParts bag;
   std::map<std::string, std::string> types;  ///< of each topic, by its bare name
-  std::string truth_topic;                   ///< bare; "" when there is none
+  std::string truth_topic;                   ///< bare; "" if there is none
   Nanoseconds begin = 0;
   Nanoseconds end = 0;
 
@@ -120,7 +120,7 @@ struct BagReader::Parts {
     const std::string type = typeOf(truth_topic);
     if (!type.empty() && type != typeName<sensor_msgs::NavSatFix>() && type != typeName<nav_msgs::Odometry>() &&
         type != typeName<geometry_msgs::PoseStamped>()) {
-      fail("topic '" + truth_topic + "' is of type " + type + ", which is no truth");
+      fail("topic '" + truth_topic + "' is of type " + type + ", which is not a truth type");
     }
   }
 
@@ -166,7 +166,7 @@ struct BagReader::Parts {
     }
   }
 
-  /// The state of the IMU at a truth message, and whether its attitude is known; nothing when it cannot be used.
+  /// The state of the IMU at a truth message, and whether its attitude is known; nothing if it cannot be used.
   std::optional<std::pair<NavigationState, bool>> truthStart(const BagEntry& entry) {
     if (bag.holds<sensor_msgs::NavSatFix>(entry)) {
       const std::optional<GnssFix> fix = toGnssFix(bag.read<sensor_msgs::NavSatFix>(entry));
@@ -293,7 +293,7 @@ void BagReader::read(const BagSink& sink) const {
       const auto start = start_wanted ? parts_->truthStart(entry) : std::nullopt;
       if (start) {
         if (!start->second) {
-          sink.problem("the truth has no attitude to start from: initialization.heading_deg is taken (" +
+          sink.problem("the truth has no attitude to start from: initialization.heading_deg is used (" +
                            formatNumber(parts_->config.initialization.heading_deg) + " deg, 1 sigma " +
                            formatNumber(parts_->config.initialization.heading_std_deg) + " deg)",
                        entry.time);

@@ -14,7 +14,7 @@
 
 namespace slipnav {
 
-/// What becomes of each kind of message. Those that cannot be used go to `problem`: what is wrong in one line, and when
+/// Receives each kind of message. Unusable ones go to `problem`: what is wrong in one line, and when
 /// the message was recorded.
 struct BagSink {
   std::function<void(const ImuSample&)> imu;
@@ -28,35 +28,35 @@ struct BagSink {
   std::function<void(const std::string&, Nanoseconds)> problem;
 };
 
-/// Part of a recording, as rosbag play counts it.
+/// Part of a recording, measured as by rosbag play.
 struct BagRange {
   double start_s = 0.0;     ///< from the beginning
   double duration_s = 0.0;  ///< 0: up to the end
 };
 
-/// All errors are std::invalid_argument of one line that names the file: missing, damaged, not indexed, without
-/// messages, or without a topic that is needed.
+/// All errors are std::invalid_argument with one line that names the file: missing, damaged, not indexed, without
+/// messages, or without a required topic.
 class BagReader {
  public:
   /// @param truth topic of the truth; "" for the first of truth/fix, truth/odometry, truth/pose that the bag has
   BagReader(const std::string& path, const Config& config, const std::string& truth = "", const BagRange& range = {});
-  /// @param paths the parts of one recording, of which errors name the first
+  /// @param paths the parts of one recording; errors name the first
   BagReader(const std::vector<std::string>& paths, const Config& config, const std::string& truth,
             const BagRange& range);
   ~BagReader();
   BagReader(BagReader&&) noexcept;
   BagReader& operator=(BagReader&&) noexcept;
 
-  /// The configuration; with `extrinsics: tf`, with the poses that the bag's /tf_static says.
+  /// The configuration; with `extrinsics: tf`, with the poses from the bag's /tf_static.
   const Config& config() const;
-  /// Whether the truth is a fix by latitude and longitude (and not a pose in a frame of its own), or there is none.
+  /// Whether the truth is a fix by latitude and longitude (and not a pose in its own frame), or there is none.
   bool truthIsGeodetic() const;
-  /// When the first message that is read was recorded.
+  /// When the first message read was recorded.
   Nanoseconds begin() const;
-  /// Time from the first to the last message that is read [s].
+  /// Time from the first to the last message read [s].
   double duration() const;
 
-  /// Hands out all messages in the order of the recording.
+  /// Passes on all messages in recording order.
   void read(const BagSink& sink) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Pieces of a recording (https://wiki.ros.org/Bags/Format/2.0), read without believing any length that it claims.
+/// Pieces of a recording (https://wiki.ros.org/Bags/Format/2.0), read without trusting any length in it.
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ class BagDamage : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a record is.
+/// Type of a record.
 enum class BagOp : std::uint8_t {
   kMessage = 0x02,
   kFileHeader = 0x03,
@@ -28,7 +28,7 @@ enum class BagOp : std::uint8_t {
   kConnection = 0x07
 };
 
-/// Reads bytes from front to back. Throws BagDamage where they end too early.
+/// Reads bytes from front to back. Throws BagDamage if they end too early.
 class ByteReader {
  public:
   ByteReader(const std::uint8_t* data, std::size_t size) : next_(data), left_(size) {}
@@ -39,7 +39,7 @@ class ByteReader {
   /// The next `size` bytes.
   ByteReader part(std::size_t size) { return {take(size), size}; }
 
-  /// Numbers stand there as they do in the memory of the machines that ROS runs on.
+  /// Numbers are stored in the byte order of the machines that ROS runs on.
   template <class Number>
   Number number() {
     Number value;
@@ -52,7 +52,7 @@ class ByteReader {
   std::size_t left_;
 };
 
-/// The named fields at the start of a record. Throws BagDamage for what is not such a list.
+/// The named fields at the start of a record. Throws BagDamage for anything that is not such a list.
 class BagFields {
  public:
   explicit BagFields(ByteReader bytes);
@@ -61,10 +61,10 @@ class BagFields {
   /// Throws BagDamage unless the record is one of these.
   void require(BagOp wanted) const;
 
-  /// "" where there is no such field.
+  /// "" if there is no such field.
   std::string text(const std::string& name) const;
 
-  /// Throws BagDamage where there is no such field, or one of another size.
+  /// Throws BagDamage if there is no such field, or one of another size.
   template <class Number>
   Number number(const std::string& name) const {
     const std::string value = text(name);
@@ -78,7 +78,7 @@ class BagFields {
   std::map<std::string, std::string> values_;
 };
 
-/// A file that is asked for no more than it has.
+/// A file that is never read beyond its end.
 class RecordFile {
  public:
   explicit RecordFile(const std::string& path);
@@ -86,10 +86,10 @@ class RecordFile {
   bool isOpen() const { return file_.is_open(); }
   void seek(std::uint64_t position);
   void skip(std::uint64_t size) { seek(position_ + size); }
-  /// Throws BagDamage when the file ends before, and says what was asked for.
+  /// Throws BagDamage that says what was requested, if the file ends before.
   std::vector<std::uint8_t> take(std::uint64_t size);
   std::uint32_t takeLength() { return ByteReader(take(sizeof(std::uint32_t))).number<std::uint32_t>(); }
-  /// A list of fields with its length before it.
+  /// A list of fields preceded by its length.
   BagFields takeFields() { return BagFields(ByteReader(take(takeLength()))); }
 
  private:

@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// A recording in memory, without its truth. Throws as BagReader does.
+/// A recording in memory, without its truth. Throws like BagReader.
 TuningDrive readTuningDrive(const std::string& path, const Config& config);
 
 }  // namespace slipnav

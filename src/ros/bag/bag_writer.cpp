@@ -10,7 +10,7 @@
 namespace slipnav {
 namespace {
 
-/// A recording has absolute names.
+/// Recordings have absolute names.
 std::string absolute(const std::string& topic) { return topic.front() == '/' ? topic : "/" + topic; }
 
 }  // namespace

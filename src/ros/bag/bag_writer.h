@@ -1,5 +1,5 @@
 #pragma once
-/// A simulated drive as a recording, with the topics, frames and axes that a robot would have.
+/// A simulated drive as a recording, with the topics, frames and axes of a real robot.
 
 #include <memory>
 #include <string>
@@ -13,8 +13,8 @@ namespace slipnav {
 /// exact truth/odometry (map frame about the start) at the rate of the wheels.
 class BagWriter {
  public:
-  /// Throws std::invalid_argument when the configuration has another number of wheels than the simulated rover, and
-  /// std::runtime_error that names the file when it cannot be written.
+  /// Throws std::invalid_argument if the configuration has a different number of wheels than the simulated rover, and
+  /// std::runtime_error that names the file if it cannot be written.
   BagWriter(const std::string& path, const Config& config);
   ~BagWriter();
   BagWriter(BagWriter&&) noexcept;

@@ -140,7 +140,7 @@ void duplicate(Recording& recording, const FaultTimes& times) {
   recording = std::move(doubled);
 }
 
-/// Wheel messages late by up to half a second, overtaking each other; now and then two IMU messages change places.
+/// Wheel messages late by up to half a second, overtaking each other; now and then two IMU messages swap places.
 void reorder(Recording& recording, const FaultTimes& times) {
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -183,7 +183,7 @@ std::vector<Fault> timeFaults() {
 }
 
 Fault gpsOutage(const std::string& topic) {
-  Fault fault{"GPS outage at initialisation, 10 s", [topic](Recording& recording, const FaultTimes& times) {
+  Fault fault{"GPS outage at initialization, 10 s", [topic](Recording& recording, const FaultTimes& times) {
                 dropMessages<NavSatFix>(topic, times.initialisation, 10.0, recording);
               }};
   fault.at_initialisation = true;

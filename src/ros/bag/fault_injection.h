@@ -1,5 +1,5 @@
 #pragma once
-/// What can happen to sensors and their messages, done to a recording on purpose.
+/// Faults of sensors and their messages, injected into a recording.
 
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
@@ -25,17 +25,17 @@ struct RecordedMessage {
 
 using Recording = std::vector<RecordedMessage>;
 
-/// The messages of a bag that are of one of those types. Throws std::runtime_error when it cannot be read.
+/// The messages of a bag that have one of those types. Throws std::runtime_error if it cannot be read.
 Recording readRecording(const std::string& path);
 void writeRecording(const std::string& path, const Recording& recording);
 
 /// When faults begin; each lasts as long as is typical for it.
 struct FaultTimes {
   ros::Time drive;           ///< in the middle of the drive
-  ros::Time initialisation;  ///< while the start is looked for
+  ros::Time initialisation;  ///< during the search for a start
 };
 
-/// One fault: its name, and the change that it makes to a recording.
+/// One fault: its name, and the change it makes to a recording.
 struct Fault {
   std::string name;
   std::function<void(Recording&, const FaultTimes&)> inject;

@@ -1,5 +1,5 @@
 #pragma once
-/// Published odometry as bytes, to see whether two runs said exactly the same.
+/// Published odometry as bytes, to check whether two runs are identical.
 
 #include <nav_msgs/Odometry.h>
 
@@ -11,8 +11,8 @@
 
 namespace slipnav {
 
-/// Serialised messages in the order in which they came, without the sequence number of the header, which counts
-/// messages of a publisher. When the clock goes back, what came before is forgotten.
+/// Serialized messages in order of arrival, without the sequence number of the header, which counts
+/// messages of a publisher. When the clock goes back, earlier messages are dropped.
 class OdometryLog {
  public:
   void add(nav_msgs::Odometry message);

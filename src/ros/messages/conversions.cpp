@@ -53,7 +53,7 @@ Matrix3 swapEnuNed() {
   return m;
 }
 
-/// What receivers say before they know better.
+/// What receivers report before they have a fix.
 bool isNowhere(const sensor_msgs::NavSatFix& message) { return message.latitude == 0.0 && message.longitude == 0.0; }
 
 bool isOutOfRange(const sensor_msgs::NavSatFix& message) {
@@ -80,7 +80,7 @@ std::optional<TruthSample> toTruthSample(const ros::Time& stamp, const geometry_
   if (!sample.position_enu_m.allFinite() || !q.coeffs().allFinite()) {
     return std::nullopt;
   }
-  if (q.norm() > 0.5) {  // all zeros stand for an attitude that is not known
+  if (q.norm() > 0.5) {  // all zeros mean that the attitude is not known
     sample.q_flu_to_enu = q.normalized();
   }
   return sample;
@@ -115,7 +115,7 @@ std::string complaintOf(const sensor_msgs::NavSatFix& message, const std::string
     return topic + " is at latitude 0, longitude 0 with a good status: the receiver has no fix yet";
   }
   if (isOutOfRange(message)) {
-    return topic + " has a latitude or longitude that is out of range: degrees are wanted";
+    return topic + " has a latitude or longitude that is out of range: degrees are required";
   }
   return message.header.stamp.isZero() ? noStamps(topic) : "";
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Between the messages at the boundary and the core. Nodelets and offline tools use the same functions, so that both
+/// Conversions between ROS messages and the core. Nodelets and offline tools use the same functions, so that both
 /// work with the same numbers bit for bit.
 
 #include <geometry_msgs/PoseStamped.h>
@@ -37,36 +37,36 @@ inline ros::Time toRosTime(Nanoseconds stamp) {
 
 ImuSample toImuSample(const sensor_msgs::Imu& message, const ImuMount& mount);
 
-/// What is wrong with a topic whose header.stamp is zero.
+/// Complaint about a topic whose header.stamp is zero.
 std::string noStamps(const std::string& topic);
 
-/// What is wrong with a fix that claims to be one, in one line that names its topic; "" when nothing, and without a
-/// fix.
+/// What is wrong with a fix that claims to be one, in one line that names its topic; otherwise, and without a
+/// fix, "".
 std::string complaintOf(const sensor_msgs::NavSatFix& message, const std::string& topic);
 
-/// Nothing for a message without a fix, with something to complain of, or with numbers that are not finite. Where the
-/// receiver does not know its covariance, 5 m horizontally and 10 m vertically (1σ) are taken.
+/// Nothing for a message without a fix, with a complaint, or with numbers that are not finite. Where the
+/// receiver does not know its covariance, 5 m horizontally and 10 m vertically (1σ) are assumed.
 std::optional<GnssFix> toGnssFix(const sensor_msgs::NavSatFix& message);
 
-/// Linear velocity of the antenna, east, north, up. Nothing when it is not finite. Where the receiver does not know its
-/// covariance (a diagonal that is not positive), 0.1 m/s horizontally and 0.2 m/s vertically (1σ) are taken.
+/// Linear velocity of the antenna, east, north, up. Nothing if it is not finite. Where the receiver does not know its
+/// covariance (a diagonal that is not positive), 0.1 m/s horizontally and 0.2 m/s vertically (1σ) are assumed.
 std::optional<VelocityFix> toVelocityFix(const geometry_msgs::TwistWithCovarianceStamped& message);
 
 /// A fix as a message.
 void fill(const GnssFix& fix, const std::string& frame_id, sensor_msgs::NavSatFix& message);
 
-/// A pose of truth, in whatever frame it is. Nothing when it is not finite.
+/// A pose of the truth, in whatever frame. Nothing if it is not finite.
 std::optional<TruthSample> toTruthSample(const nav_msgs::Odometry& message);
 std::optional<TruthSample> toTruthSample(const geometry_msgs::PoseStamped& message);
 
-/// Pose, forward speed and covariance of the position; what Odometry does not say keeps its default.
+/// Pose, forward speed and covariance of the position; fields that Odometry lacks keep their default.
 EstimateSample toEstimateSample(const nav_msgs::Odometry& message);
 
 /// A true pose and velocity as the state of the IMU. The frame of the message is taken as east-north-up about `origin`.
 NavigationState toNavigationState(const nav_msgs::Odometry& message, const LocalFrame& origin,
                                   const Vector3& imu_position_b);
 
-/// Where the IMU is to be put. @param map the frame of the request; @param present gives roll and pitch
+/// The requested pose of the IMU. @param map the frame of the request; @param present gives roll and pitch
 Placement toPlacement(const SetStateRequest& request, const LocalFrame& map, const NavigationState& present,
                       const Vector3& lever_imu_to_base_b);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Publishes what the filter finds: odometry, nav_state, slip and TF.
+/// Publishes the filter's results: odometry, nav_state, slip and TF.
 
 #include <nav_msgs/Odometry.h>
 #include <ros/node_handle.h>

@@ -1,5 +1,6 @@
 #include "ros/messages/fix_input.h"
 
+#include <limits>
 #include <optional>
 
 #include "ros/messages/conversions.h"
@@ -7,12 +8,14 @@
 namespace slipnav {
 namespace {
 
-constexpr Nanoseconds kKept = 300 * kSecond;  // of a recording that is played fast, until a start is told
+constexpr Nanoseconds kKept = 300 * kSecond;  // of a recording played fast, until a start is known
 
 }  // namespace
 
 FixInput::FixInput(const Config& config)
-    : topic_(config.topics.gps_fix), stamp_offset_(fromSeconds(config.initialization.fix_stamp_offset_s)) {}
+    : topic_(config.topics.gps_fix),
+      stamp_offset_(fromSeconds(config.initialization.fix_stamp_offset_s)),
+      max_wait_(fromSeconds(config.gnss.max_wait_s)) {}
 
 std::vector<PositionFix> FixInput::take(const sensor_msgs::NavSatFix& message, const ContinuousTime& time) {
   std::vector<PositionFix> fixes;
@@ -30,7 +33,7 @@ std::vector<PositionFix> FixInput::take(const sensor_msgs::NavSatFix& message, c
   return fixes;
 }
 
-/// A fix that is a second older than the newest one is of a clock that has begun again.
+/// A fix that is a second older than the newest one comes from a clock that has restarted.
 void FixInput::keep(const PositionFix& fix) {
   if (!newest_.empty() && fix.stamp <= newest_.back().stamp - kRestartBackstep) {
     newest_.clear();
@@ -49,6 +52,11 @@ std::vector<PositionFix> FixInput::after(Nanoseconds stamp) const {
     }
   }
   return fixes;
+}
+
+Nanoseconds FixInput::decidedAt(Nanoseconds known) const {
+  constexpr Nanoseconds kNever = std::numeric_limits<Nanoseconds>::max();
+  return known == kNever ? kNever : known + max_wait_;
 }
 
 }  // namespace slipnav

@@ -33,6 +33,7 @@ void fill(const ErrorOutlook& error, const FrameNames& frames, ErrorForecast& me
   message.threshold_m = error.threshold_m;
   message.time_to_stop_s = error.time_to_stop_s;
   message.stop_distance_m = error.stop_distance_m;
+  message.kept_s = error.kept_s;
 }
 
 }  // namespace slipnav

@@ -11,7 +11,7 @@
 
 namespace slipnav {
 
-/// @param model name of the slip model; @param computation_ms what fit and forecast took
+/// @param model name of the slip model; @param computation_ms time taken by fit and forecast
 void fill(const Forecast& forecast, const std::string& model, double computation_ms, const FrameNames& frames,
           SlipForecast& message);
 

@@ -34,7 +34,7 @@ bool ImuInput::isOfTheSensor(const std::string& frame_id) {
     return true;
   }
   problem_ = topic_ + " comes from two sensors: frame_id '" + *frame_ + "' is used, '" + frame +
-             "' is left out; give each driver its own topic, or set frames.imu";
+             "' is ignored; give each driver its own topic, or set frames.imu";
   return false;
 }
 

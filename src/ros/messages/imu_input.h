@@ -12,15 +12,15 @@
 
 namespace slipnav {
 
-/// Of several sensors in one topic the one with frames.imu is used, else the first. Every listener decides alike.
+/// Of several sensors on one topic the one with frames.imu is used, else the first. Every listener decides alike.
 class ImuInput {
  public:
   explicit ImuInput(const Config& config);
 
-  /// In body axes. Nothing when the message is not to be used; problem() says why.
+  /// In body axes. Nothing if the message cannot be used; problem() says why.
   std::optional<ImuSample> take(const sensor_msgs::Imu& message);
 
-  /// What was wrong with the last message in one line that names its topic, "" when nothing.
+  /// What was wrong with the last message in one line that names its topic, otherwise "".
   const std::string& problem() const { return problem_; }
 
  private:
@@ -29,7 +29,7 @@ class ImuInput {
   ImuMount mount_;
   std::string topic_;
   std::string configured_frame_;
-  std::optional<std::string> frame_;  ///< of the sensor that is used
+  std::optional<std::string> frame_;  ///< of the sensor in use
   std::string problem_;
 };
 

@@ -8,7 +8,7 @@
 
 namespace slipnav {
 
-// Structs are taken apart member by member, so that one that gains a member does not compile here until it is sent too.
+// Structs are taken apart member by member, so that one that gains a member does not compile until it is sent too.
 
 namespace {
 
@@ -123,6 +123,8 @@ void fill(const Estimate& estimate, const ErrorCovariance& P, ForecastInput& mes
   Eigen::Map<RowMajorCovariance>(message.covariance.data()) = P;
   const auto factors = estimate.noise_factors.toArray();
   std::copy(factors.begin(), factors.end(), message.noise_factors.begin());
+  copyVector(estimate.f_ib_b, message.f_ib_b);
+  copyVector(estimate.omega_ib_b, message.omega_ib_b);
   message.stationary = estimate.stationary;
   message.wheel_speed_used = estimate.wheel_speed_used;
   message.wheel_stamp = toRosTime(estimate.wheels.stamp);
@@ -139,6 +141,8 @@ Estimate estimateOf(const ForecastInput& message) {
   std::array<double, NoiseFactors::kCount> factors = {};
   std::copy(message.noise_factors.begin(), message.noise_factors.end(), factors.begin());
   estimate.noise_factors = NoiseFactors::fromArray(factors);
+  estimate.f_ib_b = vectorOf(message.f_ib_b);
+  estimate.omega_ib_b = vectorOf(message.omega_ib_b);
   estimate.stationary = message.stationary;
   estimate.has_wheels = true;
   estimate.wheel_speed_used = message.wheel_speed_used;

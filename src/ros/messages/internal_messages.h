@@ -1,5 +1,5 @@
 #pragma once
-/// Between the core's own structs and the messages that Ins, Filter and Initializer exchange. Nothing is lost.
+/// Between the core's own structs and the messages that Ins, Filter and Initializer exchange. Lossless.
 
 #include <slipnav/FilterCorrection.h>
 #include <slipnav/ForecastInput.h>
@@ -21,7 +21,7 @@ InsInterval toMessage(const InsStep& step);
 /// @param epoch of the batch that the interval came in
 InsStep fromMessage(const InsInterval& message, std::uint32_t epoch);
 
-/// How the clock was set back; the rest of the message stays.
+/// How the clock was set back; the rest of the message is unchanged.
 void fill(const ContinuousTime& time, InsSteps& message);
 ContinuousTime timeOf(const InsSteps& message);
 
@@ -29,9 +29,9 @@ ContinuousTime timeOf(const InsSteps& message);
 void fill(const InitialState& initial, StartState& message);
 InitialState fromMessage(const StartState& message);
 
-/// What a Forecaster takes of an estimate and its covariance.
+/// The parts of an estimate and its covariance that a Forecaster uses.
 void fill(const Estimate& estimate, const ErrorCovariance& P, ForecastInput& message);
-/// The parts of an estimate that were sent; the others are left at their defaults.
+/// The parts of an estimate that were sent; the others keep their defaults.
 Estimate estimateOf(const ForecastInput& message);
 ErrorCovariance covarianceOf(const ForecastInput& message);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What the core_nav node of the paper's own software publishes, made of this package's messages: its types, axes and
+/// What the core_nav node of the paper's software publishes, derived from this package's messages: its types, axes and
 /// units. North, east and down are those of the map frame, at the start.
 
 #include <geometry_msgs/PointStamped.h>
@@ -38,7 +38,7 @@ class LegacyMessages {
   /// no covariance.
   nav_msgs::Odometry odometry(const NavState& state) const;
   /// Slip ratio of the wheel that slips most, speed of the rear wheels [m/s], forward speed over ground [m/s]. Nothing
-  /// when the speeds of single wheels are not known.
+  /// if the speeds of single wheels are not known.
   std::optional<geometry_msgs::PointStamped> slip(const Slip& slip) const;
 
  private:
@@ -47,7 +47,7 @@ class LegacyMessages {
   FrameNames frames_;
   double equatorial_radius_m_;
   double flattening_;
-  std::vector<bool> is_rear_;  ///< by the order of the configuration
+  std::vector<bool> is_rear_;  ///< in the order of the configuration
 };
 
 }  // namespace slipnav

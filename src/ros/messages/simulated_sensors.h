@@ -1,5 +1,5 @@
 #pragma once
-/// The simulated rover's sensors as the messages that a robot would publish.
+/// The simulated rover's sensors as the messages of a real robot.
 
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
@@ -17,7 +17,7 @@ namespace slipnav {
 /// Fills messages from samples in core axes.
 class SimulatedSensors {
  public:
-  /// Throws std::invalid_argument when the configuration has another number of wheels than the simulated rover.
+  /// Throws std::invalid_argument if the configuration has a different number of wheels than the simulated rover.
   explicit SimulatedSensors(const Config& config);
 
   /// In the sensor's own axes, as configured in imu.mount.

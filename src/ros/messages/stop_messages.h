@@ -11,14 +11,14 @@
 
 namespace slipnav {
 
-/// All six components as they are: the supervisor works in any axes.
+/// All six components unchanged: the supervisor works in any axes.
 VelocityCommand toVelocityCommand(const geometry_msgs::Twist& message);
 geometry_msgs::Twist toTwist(const VelocityCommand& command);
 
 void fill(const SupervisorStatus& status, StopMode mode, const FrameNames& frames, StopStatus& message);
 
-/// Makes observations of nav_state and slip: the same as observationOf() makes of the estimate that both messages came
-/// from, except for the rounding of a rotated covariance.
+/// Derives observations from nav_state and slip: the same as observationOf() from the original estimate,
+/// except for the rounding of a rotated covariance.
 class RoverObserver {
  public:
   /// @param wheel_speed_at_rest_mps highest circumferential speed of a wheel at rest, see StationaryParams

@@ -18,7 +18,7 @@ std::vector<std::string> actors(const std::string& topic) {
   return nodes;
 }
 
-/// A connection counts where the master does not answer.
+/// If the master does not answer, a connection counts.
 std::size_t countOf(bool connected, const std::string& topic) {
   if (!connected) {
     return 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// What the stop supervisor tells the rover, on all the ways that a rover may listen to, and who does.
+/// What the stop supervisor tells the rover, on every topic a rover may listen to, and who listens.
 
 #include <geometry_msgs/Twist.h>
 #include <std_msgs/Bool.h>
@@ -28,7 +28,7 @@ class StopOutputs {
   void countDown(double seconds) const;
   void lock(bool locked) const;
 
-  /// Recorders are left out, as far as the master says who listens.
+  /// Not counting recorders, as far as the master knows who listens.
   StopListeners listeners() const;
   /// The same by name: "cmd_vel is heard by /base; e_stop by nobody".
   std::string listenersInWords() const;

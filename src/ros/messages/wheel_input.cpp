@@ -19,7 +19,7 @@ WheelMotion WheelInput::atEndOfInterval(WheelMotion wheels) const {
   return wheels;
 }
 
-/// A sample without a time is of no use, and the cause of its absence is not seen otherwise.
+/// A sample without a time is useless, and would otherwise be dropped without a visible cause.
 bool WheelInput::isStamped(const std_msgs::Header& header, const std::string& topic) {
   if (header.stamp.isZero()) {
     problem_ = noStamps(topic);

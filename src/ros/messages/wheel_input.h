@@ -1,5 +1,5 @@
 #pragma once
-/// The wheels' motion from whichever message the robot publishes.
+/// The wheel motion from whichever message the robot publishes.
 
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/JointState.h>
@@ -13,24 +13,24 @@
 
 namespace slipnav {
 
-/// Of two sources one is used (see wheel.source). Every listener decides alike: `auto` takes wheel_odometry only as
-/// long as no usable joint_states has come.
+/// Of two sources one is used (see wheel.source). Every listener decides alike: `auto` uses wheel_odometry only as
+/// long as no usable joint_states has arrived.
 class WheelInput {
  public:
   explicit WheelInput(const Config& config);
 
-  /// Nothing when the message is not to be used; problem() says why when something is wrong with it.
+  /// Nothing if the message cannot be used; problem() says why if something is wrong with it.
   std::optional<WheelMotion> take(const sensor_msgs::JointState& message);
-  /// Forward speed only: the heading rate of such an odometry may come from anywhere.
+  /// Forward speed only: the heading rate of such odometry may come from anywhere.
   std::optional<WheelMotion> take(const nav_msgs::Odometry& message);
 
-  /// What was wrong with the last message in one line that names its topic, "" when nothing.
+  /// What was wrong with the last message in one line that names its topic, otherwise "".
   const std::string& problem() const { return problem_; }
 
   /// The topic that samples are taken from.
   const std::string& topic() const { return joints_heard_ ? joint_topic_ : odometry_topic_; }
 
-  /// What is to be said once about the messages, with the first one that shows it; else "".
+  /// A remark about the messages, reported once, with the first one that shows it; otherwise "".
   const std::string& remark() const { return remark_; }
 
   bool wantsJointStates() const { return source_ != "wheel_odometry"; }

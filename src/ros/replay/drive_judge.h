@@ -1,5 +1,5 @@
 #pragma once
-/// What is to be said about a simulated drive through the nodelets.
+/// Evaluation of a simulated drive through the nodelets.
 
 #include <nav_msgs/Odometry.h>
 #include <slipnav/Initialization.h>
@@ -13,7 +13,7 @@
 
 namespace slipnav {
 
-/// Is told of the drive, and of what the nodelets make of it. Messages that a judge has no use for may be kept from it.
+/// Receives the drive and the nodelets' outputs. Messages that a judge does not need may be withheld from it.
 class DriveJudge {
  public:
   virtual ~DriveJudge() = default;
@@ -26,11 +26,11 @@ class DriveJudge {
   virtual void add(const StopStatus&) {}
   virtual void add(const Initialization&) {}
 
-  /// Up to which it has the estimates.
+  /// Stamp up to which it has the estimates.
   virtual Nanoseconds newestStamp() const = 0;
   /// The drive may end before its script does.
   virtual bool hasSeenEnough() const { return false; }
-  /// Called once, in the end. @return what it has to say, for people
+  /// Called once, at the end. @return its result as text
   virtual std::string verdict() = 0;
 };
 

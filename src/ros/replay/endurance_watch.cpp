@@ -19,10 +19,10 @@ constexpr double kRowInterval_s = 60.0;
 constexpr std::size_t kRowsInAnHour = 60;
 
 constexpr double kMostGrowth_mb = 2.0;
-constexpr double kMostTrend = 1.5;     // latency of the last hour in terms of that of the first
-constexpr double kLongestGap_s = 0.1;  // none of the estimates may be missing
+constexpr double kMostTrend = 1.5;     // latency of the last hour relative to the first
+constexpr double kLongestGap_s = 0.1;  // no estimate may be missing
 constexpr double kLeastCovered_pct = 99.0;
-/// 99 % of chi-square with three degrees of freedom, over three: the errors of one drive are as good as one sample.
+/// 99 % of chi-square with three degrees of freedom, over three: the errors of one drive count as one sample.
 constexpr double kMostNees = 3.78;
 
 double now() { return ros::SteadyTime::now().toSec(); }
@@ -116,11 +116,11 @@ std::string EnduranceWatch::verdict() {
   table.add("driven [h]", last.driven_h);
   table.add("stops", last.stops);
   table.addAtMost("longest interval between estimates [s]", longest_gap_s_, kLongestGap_s);
-  table.add("memory of the manager in the end [MB]", last.rss_kb / 1024.0);
+  table.add("memory of the manager at the end [MB]", last.rss_kb / 1024.0);
   table.addAtMost("its growth after the first 10 minutes [MB]", figures.memory_growth_mb, kMostGrowth_mb);
   addTrend("latency p50", figures.latency_p50_ms, table);
   addTrend("latency p99", figures.latency_p99_ms, table);
-  table.add("horizontal error in the end [m]", last.error.horizontal_m);
+  table.add("horizontal error at the end [m]", last.error.horizontal_m);
   table.add("3 sigma of it [m]", last.error.horizontal_3sigma_m);
   table.addAtLeast("minutes with the error within 3 sigma [%]", figures.covered_pct, kLeastCovered_pct);
   table.addAtMost("position NEES, mean", figures.nees_mean, kMostNees);

@@ -1,6 +1,6 @@
 #pragma once
-/// Judges hours of driving while they go on: the nodelets' memory, how long estimates take, and whether what they say
-/// of their own error is true.
+/// Monitors hours of driving in progress: the nodelets' memory, the latency of estimates, and whether
+/// their covariance is right.
 
 #include <fstream>
 #include <functional>
@@ -20,7 +20,7 @@ class EnduranceWatch : public DriveJudge {
  public:
   /// @param hours from the first estimate on, after which it has seen enough
   /// @param folder for soak.csv, which grows with the drive, and soak.txt, the verdict
-  /// @param memory_kb tells what the nodelets' process has resident
+  /// @param memory_kb returns the resident memory of the nodelets' process
   EnduranceWatch(const Planet& planet, double hours, const std::string& folder, std::function<double()> memory_kb);
 
   void add(const sim::Measurements& measurements, const sim::TruthState& truth) override;
@@ -44,11 +44,11 @@ class EnduranceWatch : public DriveJudge {
   std::optional<LocalFrame> frame_;
   Arrivals published_;     ///< IMU samples
   Nanoseconds first_ = 0;  ///< estimate
-  double begun_s_ = 0.0;   ///< when that came
+  double begun_s_ = 0.0;   ///< when that arrived
   EstimateSample newest_;
   double longest_gap_s_ = 0.0;  ///< between estimates
   Nanoseconds next_row_ = 0;
-  std::optional<TruthSample> truth_;  ///< of the coming row, until its estimate is there
+  std::optional<TruthSample> truth_;  ///< of the next row, until its estimate arrives
   std::vector<double> latencies_ms_;  ///< since the last row
   int stops_ = 0;
   std::vector<EnduranceRow> rows_;

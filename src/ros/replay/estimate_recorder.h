@@ -1,5 +1,5 @@
 #pragma once
-/// Puts the messages of an estimator together again as the track that the evaluation takes.
+/// Reassembles the messages of an estimator into the track that the evaluation uses.
 
 #include <nav_msgs/Odometry.h>
 #include <slipnav/NavState.h>
@@ -15,13 +15,13 @@ namespace slipnav {
 /// Joins odometry, nav_state and slip by their stamps.
 class EstimateRecorder {
  public:
-  /// A message that is older than the newest by a second or more begins a new track.
+  /// A message older than the newest by a second or more starts a new track.
   void add(const nav_msgs::Odometry& message);
   void add(const NavState& message);
   void add(const Slip& message);
 
   std::size_t size() const { return estimates_.size(); }
-  /// Up to which odometry and nav_state have come; each comes on a way of its own.
+  /// Stamp up to which both odometry and nav_state have arrived; each takes its own route.
   Nanoseconds newestStamp() const {
     return estimates_.empty() || stationary_.empty()
                ? 0

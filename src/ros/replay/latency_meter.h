@@ -1,5 +1,5 @@
 #pragma once
-/// How long estimates take, by the wall clock. For diagnostics only. Times are of any clock that only runs forward.
+/// Latency of estimates, by the wall clock. For diagnostics only. Times are of any monotonic clock.
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
@@ -11,11 +11,11 @@
 
 namespace slipnav {
 
-/// When the newest samples came.
+/// Arrival times of the newest samples.
 class Arrivals {
  public:
   void note(Nanoseconds stamp, double now_s);
-  /// 0 when that is not known any more.
+  /// 0 if that is no longer known.
   double of(Nanoseconds stamp) const;
 
  private:
@@ -29,15 +29,15 @@ class Arrivals {
 /// From the arrival of an IMU sample to the estimate at its stamp.
 class LatencyMeter {
  public:
-  /// An estimate is going to be made of a sample that came at `came_s`, unless that is not known (0). Of a stamp that
-  /// is told again the first telling counts.
+  /// Registers an estimate for a sample that arrived at `came_s`, unless that is not known (0). For a stamp
+  /// registered twice the first time counts.
   void expect(Nanoseconds stamp, double came_s);
-  /// It has been published.
+  /// The estimate has been published.
   void published(Nanoseconds stamp, double now_s);
-  /// A new start: those that are still expected never come.
+  /// A new start: estimates still expected will not come.
   void restart() { expected_.clear(); }
 
-  /// Adds what has been measured since the last call.
+  /// Reports the measurements since the last call.
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:

@@ -15,7 +15,7 @@
 namespace slipnav {
 namespace {
 
-/// Fields of /proc/PID/stat after the name, which may hold spaces: of them the first is the state.
+/// Fields of /proc/PID/stat after the name, which may contain spaces: the first of them is the state.
 constexpr int kUserTime = 11;
 constexpr int kThreads = 17;
 constexpr int kResidentPages = 21;
@@ -51,7 +51,7 @@ ProcessUsage usageOf(pid_t process) {
     fields.push_back(word);
   }
   if (fields.size() <= kResidentPages) {
-    throw std::runtime_error("process " + std::to_string(process) + " is not there any more");
+    throw std::runtime_error("process " + std::to_string(process) + " is gone");
   }
   const auto number = [&fields](int field) { return std::stod(fields.at(static_cast<std::size_t>(field))); };
   ProcessUsage usage;

@@ -1,5 +1,5 @@
 #pragma once
-/// The process of another node of this machine.
+/// The process of another node on this machine.
 
 #include <sys/types.h>
 
@@ -8,17 +8,17 @@
 
 namespace slipnav {
 
-/// @param node full name; @return 0 when it is not there
+/// @param node full name; @return 0 if it does not exist
 pid_t pidOf(const std::string& node);
 
-/// What a process has used so far.
+/// Resources a process has used so far.
 struct ProcessUsage {
   double cpu_s = 0.0;
   double memory_mb = 0.0;  ///< resident
   int threads = 0;
 };
 
-/// Throws std::runtime_error when there is no such process.
+/// Throws std::runtime_error if there is no such process.
 ProcessUsage usageOf(pid_t process);
 
 }  // namespace slipnav

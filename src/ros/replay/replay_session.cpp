@@ -21,11 +21,11 @@ namespace slipnav {
 namespace {
 
 constexpr double kStartTimeout_s = 60.0;
-constexpr double kSilence_s = 60.0;  // on a machine that is busy with other things
+constexpr double kSilence_s = 60.0;  // on a busy machine
 constexpr double kStragglers_s = 0.5;
 const ros::WallDuration kPollInterval(0.02);
 
-/// Serves callbacks until `done`; @return false when nothing has come of it within the time, if there is a limit.
+/// Serves callbacks until `done`; @return false if the time limit, if any, has passed without it.
 template <class Done>
 bool spinUntil(Done done, std::optional<double> timeout_s) {
   const ros::SteadyTime begin = ros::SteadyTime::now();
@@ -66,7 +66,7 @@ std::set<std::string> recordedTopics(const std::string& path) {
   return topics;
 }
 
-/// What a recording must not say while the nodelets run: what they publish themselves, commands, time and transforms of
+/// What a recording must not publish while the nodelets run: their own outputs, commands, time and transforms of
 /// moving frames. As full names.
 std::set<std::string> outputTopics(const TopicNames& topics) {
   std::set<std::string> outputs = topicsWith(0);
@@ -78,11 +78,11 @@ std::set<std::string> outputTopics(const TopicNames& topics) {
     }
   }
   outputs.insert({"/clock", "/tf"});
-  outputs.erase("/tf_static");  // where the sensors are
+  outputs.erase("/tf_static");  // sensor poses
   return outputs;
 }
 
-/// What somebody listens to, less the outputs, as full names.
+/// Topics with subscribers, less the outputs, as full names.
 std::set<std::string> wantedTopics(const TopicNames& topics) {
   const std::set<std::string> heard = topicsWith(1);
   const std::set<std::string> outputs = outputTopics(topics);
@@ -135,7 +135,7 @@ ReplaySession::ReplaySession(const TopicNames& topics, Outputs outputs) : topics
 }
 
 void ReplaySession::waitForNodelets() {
-  // Each nodelet announces its internal topic when it has subscribed to everything else.
+  // Each nodelet advertises its internal topic after it has subscribed to everything else.
   std::string missing;
   const auto all_there = [this, &missing] {
     const std::set<std::string> published = topicsWith(0);
@@ -161,7 +161,7 @@ void ReplaySession::waitForNodelets() {
 }
 
 void ReplaySession::play(const ReplayOptions& options, Nanoseconds last_stamp) {
-  recorder_ = EstimateRecorder();  // else the track before would pass for this one until its first estimate comes
+  recorder_ = EstimateRecorder();  // else the previous track would pass for this one until its first estimate arrives
   odometry_ = OdometryLog();
   ros::Time clock;
   const boost::function<void(const rosgraph_msgs::Clock::ConstPtr&)> note =
@@ -180,7 +180,7 @@ void ReplaySession::play(const ReplayOptions& options, Nanoseconds last_stamp) {
     estimates = recorder_.size();
     clock_before = clock;
   } while (!spinUntil(has_come, kSilence_s) && (recorder_.size() != estimates || clock != clock_before));
-  // The slip of the last wheel sample was published before, but comes on a way of its own.
+  // The slip of the last wheel sample was published before, but takes its own route.
   spinUntil([] { return false; }, kStragglers_s);
 }
 

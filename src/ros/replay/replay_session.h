@@ -1,5 +1,5 @@
 #pragma once
-/// One recording played through the nodelets that are running, and what they made of it.
+/// One recording played through the running nodelets, and their result.
 
 #include <ros/ros.h>
 
@@ -23,8 +23,8 @@ struct ReplayOptions {
 /// Subscribes, plays, and collects the estimates.
 class ReplaySession {
  public:
-  /// What to listen to, relative to the node's namespace. With odometry alone,
-  /// recorder() has nothing of the rest.
+  /// What to subscribe to, relative to the node's namespace. With odometry only,
+  /// recorder() has none of the rest.
   enum class Outputs { kAll, kOdometry };
 
   explicit ReplaySession(const TopicNames& topics, Outputs outputs = Outputs::kAll);
@@ -32,18 +32,18 @@ class ReplaySession {
   /// Waits until all nodelets are there and connected. Throws std::runtime_error that says what is missing.
   void waitForNodelets();
 
-  /// Plays with rosbag play, with its clock, all topics that somebody listens to, less those that the nodelets publish
+  /// Plays with rosbag play, with its clock, all topics that have subscribers, less those that the nodelets publish
   /// themselves, commands and moving transforms, until the estimate of `last_stamp`
-  /// has come: the player is not let go before, as its queues would go with it. Nobody misses a message: playing starts
-  /// when everybody is connected, and queues hold whatever comes. Where nothing comes for a minute, neither an estimate
-  /// nor the clock, that is the end as well. Throws std::runtime_error when rosbag play fails, or when ROS shuts down.
+  /// has arrived: the player is kept alive until then, since its queues would end with it. No message is lost: playing
+  /// starts once everybody is connected, and queues hold whatever comes. If nothing comes for a minute, neither an
+  /// estimate nor the clock, that also ends it. Throws std::runtime_error if rosbag play fails or ROS shuts down.
   void play(const ReplayOptions& options, Nanoseconds last_stamp);
 
   const EstimateRecorder& recorder() const { return recorder_; }
   const OdometryLog& odometry() const { return odometry_; }
 
  private:
-  /// Of the estimates that are complete.
+  /// Stamp of the newest complete estimate.
   Nanoseconds newestStamp() const {
     return outputs_ == Outputs::kOdometry ? odometry_.newestStamp() : recorder_.newestStamp();
   }

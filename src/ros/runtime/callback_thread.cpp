@@ -20,7 +20,7 @@ Clock::duration clockDuration(double interval_s) {
 
 struct RepeatedWork::Task {
   Clock::duration interval;
-  Clock::time_point next;  ///< of the thread alone
+  Clock::time_point next;  ///< used only by the thread
   std::mutex mutex;        ///< held while the work is done
   std::function<void()> work;
 };

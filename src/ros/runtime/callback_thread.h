@@ -1,9 +1,9 @@
 #pragma once
-/// A thread that serves the callbacks of one or several nodelets, and does what they have to do regularly.
+/// A thread that serves the callbacks of one or several nodelets, and their periodic work.
 ///
-/// The threads of nodelet's manager would be woken twice for each callback, once to hand it out and once to run it. At
+/// The threads of nodelet's manager would wake twice for each callback, once to dispatch it and once to run it. At
 /// some hundred callbacks a second that costs more than all the computing. So would the timers of roscpp, which run on
-/// a thread of their own that only hands out.
+/// a separate thread that only dispatches.
 
 #include <ros/callback_queue.h>
 
@@ -17,11 +17,11 @@
 
 namespace slipnav {
 
-/// That of the nodelets between which every IMU sample goes back and forth. Those that compute for long, or that the
-/// operator's commands pass through, have their own.
+/// Shared by the nodelets between which every IMU sample goes back and forth. Those with long computations, and those
+/// that pass on the operator's commands, have their own.
 inline constexpr const char* kNavigationThread = "navigation";
 
-/// Work that a CallbackThread repeats, until this is destroyed or assigned to: that waits for a call that runs, and so
+/// Work that a CallbackThread repeats, until this is destroyed or assigned to: that waits for a running call, and so
 /// must not be done by the work itself.
 class RepeatedWork {
  public:

@@ -6,7 +6,7 @@ namespace slipnav {
 
 CheckpointKeeper::CheckpointKeeper(const CheckpointParams& params) : params_(params) {
   if (params.enabled()) {
-    writer_.emplace(params.file);
+    writer_.emplace(params.place());
   }
 }
 
@@ -55,7 +55,7 @@ void CheckpointKeeper::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
     return;
   }
   const CheckpointWriter::Status written = writer_->status();
-  status.add("checkpoints", params_.file);
+  status.add("checkpoints", params_.place());
   status.add("checkpoints written", written.written);
   status.add("checkpoints failed", written.failed);
   if (!written.problem.empty()) {

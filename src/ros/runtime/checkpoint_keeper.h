@@ -1,5 +1,5 @@
 #pragma once
-/// When the filter's state is written to a checkpoint, and what goes into it.
+/// When and with what content the filter's state is written to a checkpoint.
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
@@ -20,7 +20,7 @@ class CheckpointKeeper {
   /// An estimate has started.
   void start(const Geodetic& origin, std::uint32_t session);
 
-  /// How the filter's time follows from the clock, by which a checkpoint is dated.
+  /// How the filter's time follows from the clock, which dates checkpoints.
   void setTime(const ContinuousTime& time) { time_ = time; }
 
   /// Last known parameters of the slip model.
@@ -29,7 +29,7 @@ class CheckpointKeeper {
   /// Writes the filter's state if the interval has passed since the last one.
   void offer(const FilterEngine& filter);
 
-  /// Writes the filter's state and waits until that is done. Throws std::runtime_error when it is not possible.
+  /// Writes the filter's state and waits for completion. Throws std::runtime_error if it is not possible.
   void save(const FilterEngine& filter);
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;

@@ -1,5 +1,5 @@
 #pragma once
-/// Writes checkpoints in a thread of its own, so that no callback waits for a disk.
+/// Writes checkpoints in a separate thread, so that no callback waits for a disk.
 
 #include <condition_variable>
 #include <cstdint>
@@ -21,7 +21,7 @@ class CheckpointWriter {
   CheckpointWriter(const CheckpointWriter&) = delete;
   CheckpointWriter& operator=(const CheckpointWriter&) = delete;
 
-  /// Takes a checkpoint and returns at once. One that still waits is replaced.
+  /// Takes a checkpoint and returns at once. A pending one is replaced.
   void write(Checkpoint checkpoint);
 
   /// Waits until everything taken is written.
@@ -31,7 +31,7 @@ class CheckpointWriter {
   struct Status {
     std::uint64_t written = 0;
     std::uint64_t failed = 0;
-    std::string problem;  ///< of the last one, "" when it was written
+    std::string problem;  ///< of the last one, "" if it was written
   };
   Status status() const;
 

@@ -14,7 +14,7 @@ extern char** environ;
 namespace slipnav {
 namespace {
 
-constexpr int kUnknownStatus = 127;  // somebody else has waited for the program
+constexpr int kUnknownStatus = 127;  // something else has waited for the program
 
 int exitStatus(int wait_status) {
   return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : 128 + WTERMSIG(wait_status);
@@ -66,7 +66,7 @@ int ChildProcess::wait() noexcept {
 std::string packageExecutable(const std::string& name) {
   Dl_info library = {};
   if (dladdr(reinterpret_cast<const void*>(&packageExecutable), &library) == 0) {
-    throw std::runtime_error("the folder of this package's libraries cannot be found out");
+    throw std::runtime_error("the folder of this package's libraries cannot be determined");
   }
   const std::string path = library.dli_fname;
   return path.substr(0, path.find_last_of('/') + 1) + "slipnav/" + name;

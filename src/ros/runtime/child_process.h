@@ -9,18 +9,18 @@
 
 namespace slipnav {
 
-/// The program lives no longer than this object.
+/// The program does not outlive this object.
 class ChildProcess {
  public:
-  /// @param command the program (looked for in PATH when it has no slash) and its arguments
-  /// Throws std::runtime_error that names the program when it cannot be started.
+  /// @param command the program (looked up in PATH if it has no slash) and its arguments
+  /// Throws std::runtime_error that names the program if it cannot be started.
   explicit ChildProcess(const std::vector<std::string>& command);
-  /// Interrupts the program if it still runs, and waits for its end.
+  /// Interrupts the program if it is still running, and waits for its end.
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// The exit status once it has ended (128 + signal when it was killed), nothing while it runs.
+  /// The exit status once it has ended (128 + signal if it was killed), nothing while it runs.
   std::optional<int> poll() noexcept;
   /// Waits for the end. @return the exit status as above
   int wait() noexcept;
@@ -30,7 +30,7 @@ class ChildProcess {
   std::optional<int> status_;
 };
 
-/// Path of an executable or script of this package: as catkin lays them out, beside its libraries in lib/slipnav.
+/// Path of an executable or script of this package: next to its libraries in lib/slipnav, as catkin lays them out.
 std::string packageExecutable(const std::string& name);
 
 }  // namespace slipnav

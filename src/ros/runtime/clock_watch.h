@@ -1,18 +1,18 @@
 #pragma once
-/// Whether the time that nodes are told to go by is there at all.
+/// Whether the time source of the nodes exists at all.
 
 #include <cstdint>
 
 namespace slipnav {
 
-/// With `use_sim_time`, time is what somebody publishes. Where that parameter is left over from a recording or a
-/// simulation, nobody does: messages come, and time stands still. Asked regularly by real time.
+/// With `use_sim_time`, time is whatever is published. If that parameter is left over from a recording or a
+/// simulation, nobody publishes: messages arrive, and time stands still. Polled in real time.
 class ClockWatch {
  public:
   /// A message has been handled.
   void heard() { ++messages_; }
 
-  /// @param simulated use_sim_time is set; @param time_s what ROS takes for the time
+  /// @param simulated use_sim_time is set; @param time_s current ROS time
   /// @return whether messages have come since the last call while time stood still
   bool standsStill(bool simulated, double time_s) {
     const bool still = simulated && asked_ && time_s == time_s_ && messages_ != messages_before_;

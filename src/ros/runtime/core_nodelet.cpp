@@ -33,7 +33,7 @@ void CoreNodelet::onInit() {
     }
     subscribe(config_);
     listen(kTuningTopic, &CoreNodelet::onTuning);
-    // The updater has one name for its topic; only its own node handle can call it something else.
+    // The updater has a fixed name for its topic; only its own node handle can remap it.
     const ros::NodeHandle renamed(node_, "", {{"/diagnostics", config_.topics.diagnostics}});
     updater_ = std::make_unique<diagnostic_updater::Updater>(renamed, private_node_, getName());
     updater_->setHardwareID(kHardwareId);
@@ -91,7 +91,7 @@ std::size_t CoreNodelet::publishersOf(const std::string& topic) const {
 void CoreNodelet::diagnoseClock(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const bool still = clock_watch_.standsStill(ros::Time::isSimTime(), ros::Time::now().toSec());
   if (still && endsOf("/clock").publishers.empty()) {
-    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, "use_sim_time is set, and nobody publishes /clock");
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::ERROR, "use_sim_time is set, but nobody publishes /clock");
   }
 }
 
@@ -144,7 +144,7 @@ bool CoreNodelet::setParameters(dynamic_reconfigure::Reconfigure::Request& reque
   return true;
 }
 
-/// What another nodelet was told. A nodelet hears itself as well, and finds nothing new.
+/// A change made in another nodelet. A nodelet hears itself as well, and finds nothing new.
 void CoreNodelet::onTuning(const dynamic_reconfigure::Config::ConstPtr& message) {
   tune(withChanges(config_, changesOf(*message)));
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What all nodelets of the package have in common: configuration, safe callbacks, diagnostics.
+/// Base of all nodelets of the package: configuration, safe callbacks, diagnostics.
 
 #include <ros/ros.h>  // nodelet.h only declares NodeHandle
 
@@ -32,26 +32,26 @@ namespace slipnav {
 ///
 /// With `extrinsics: tf`, messages wait until TF knows the sensors.
 ///
-/// A nodelet subscribes first and advertises last: once its topics are known to the master, it misses nothing.
+/// A nodelet subscribes first and advertises last: once the master knows its topics, it misses nothing.
 ///
-/// Its callbacks run one at a time, on a thread of its own or one that it shares.
+/// Its callbacks run one at a time, in its own thread or one that it shares.
 class CoreNodelet : public nodelet::Nodelet {
  public:
   void onInit() final;
 
  protected:
-  /// Builds what the configuration describes; called once, before any message is handled and, where the extrinsics have
-  /// to be waited for, after the two below. May throw std::invalid_argument.
+  /// Builds what the configuration describes; called once, before any message is handled and, if the extrinsics must
+  /// be waited for, after the two below. May throw std::invalid_argument.
   virtual void begin(const Config& config) = 0;
-  /// Whether begin() has to wait for the extrinsics, where they come from TF.
+  /// Whether begin() must wait for the extrinsics if they come from TF.
   virtual bool needsExtrinsics() const { return true; }
   /// Calls listen() and serve().
   virtual void subscribe(const Config& config) = 0;
-  /// Calls publisher(); the topic by which others know that this nodelet is ready comes last.
+  /// Calls publisher(); the topic that shows others that this nodelet is ready comes last.
   virtual void advertise(const Config& config) = 0;
   /// Twice a second, and when reportNow() is called; may come before begin().
   virtual void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) = 0;
-  /// More statuses than the one of diagnose().
+  /// Statuses in addition to that of diagnose().
   virtual void addDiagnoses(diagnostic_updater::Updater& /*updater*/) {}
   /// Some of the parameters that may be changed while running have changed; called between two messages. Does not
   /// throw.
@@ -60,15 +60,15 @@ class CoreNodelet : public nodelet::Nodelet {
   virtual void onTick() {}
   /// How often [s].
   virtual double tickInterval_s() const { return 0.2; }
-  /// Nodelets of one namespace with the same word here share a thread: what goes back and forth between them wakes
-  /// nobody. "": a thread of its own. The private parameter `thread` says otherwise.
+  /// Nodelets of one namespace with the same word here share a thread: messages between them need no context
+  /// switch. "": its own thread. The private parameter `thread` overrides it.
   virtual std::string usualThread() const { return ""; }
 
-  /// Callbacks of these come on the thread that serves this nodelet.
+  /// Its callbacks run on the thread that serves this nodelet.
   ros::NodeHandle& node() { return node_; }
   ros::NodeHandle& privateNode() { return private_node_; }
 
-  /// No more calls: waits for those that run. To be called by the destructor of every nodelet, whose members they use.
+  /// Ends all calls and waits for running ones. The destructor of every nodelet must call it, as they use its members.
   void stop();
 
   /// No exception leaves the callback.
@@ -82,9 +82,9 @@ class CoreNodelet : public nodelet::Nodelet {
         node_.subscribe<Message>(topic, kQueueSize, callback, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
   }
 
-  /// Whether each topic that is listened to has a publisher.
+  /// Whether each subscribed topic has a publisher.
   bool isConnected() const;
-  /// How many publishers a topic that is listened to has.
+  /// Number of publishers of a subscribed topic.
   std::size_t publishersOf(const std::string& topic) const;
 
   template <class Message>
@@ -106,18 +106,19 @@ class CoreNodelet : public nodelet::Nodelet {
     services_.push_back(private_node_.advertiseService(name, callback));
   }
 
-  /// Offers what the table of tunable parameters has for `nodelet` to dynamic_reconfigure. Called in subscribe().
+  /// Offers the parameters listed for `nodelet` in the table of tunable ones to dynamic_reconfigure. Called in
+  /// subscribe().
   void offerTuning(const std::string& nodelet);
 
-  /// How long silence has to last in real time [s] before it counts.
+  /// How long silence must last in real time [s] before it counts.
   static double patience() { return ros::Time::isSimTime() ? kSimulatedPatience_s : kPatience_s; }
 
-  /// Seconds of a clock that only runs forward, for patience.
+  /// Seconds of a monotonic clock, for patience.
   static double now() { return ros::SteadyTime::now().toSec(); }
-  /// The same instant by both clocks.
+  /// The same instant on both clocks.
   static SilenceWatch::Now clocks() { return {ros::Time::now().toSec(), now()}; }
 
-  /// Publishes diagnostics at once, for what must not wait for its turn. From a callback.
+  /// Publishes diagnostics at once, for urgent ones. Call from a callback.
   void reportNow() {
     if (updater_) {
       updater_->force_update();
@@ -128,7 +129,7 @@ class CoreNodelet : public nodelet::Nodelet {
   void chooseThread();
   void handle(const std::function<void()>& work);
   void guarded(const std::function<void()>& work);
-  /// @return what went wrong, "" when nothing did
+  /// @return what went wrong, otherwise ""
   std::string answer(const std::function<void()>& work);
   std::vector<ParameterDifference> tune(const Config& next);
   bool setParameters(dynamic_reconfigure::Reconfigure::Request& request,

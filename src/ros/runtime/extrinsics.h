@@ -9,9 +9,9 @@
 
 namespace slipnav {
 
-/// Puts the poses of IMU and antenna in `buffer` in place of those of the configuration.
+/// Replaces the poses of IMU and antenna in the configuration by those in `buffer`.
 /// @param with_gps whether the antenna is needed
-/// @return what is missing ("no transform base_link → imu_link"), "" when all is known; then only, config changes
+/// @return what is missing ("no transform base_link → imu_link"), "" if all is known; only then, config changes
 std::string takeExtrinsics(const tf2::BufferCore& buffer, bool with_gps, Config& config);
 
 }  // namespace slipnav

@@ -9,7 +9,7 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-/// Of a status that comes twice a second, on a machine that is busy.
+/// Of a status published twice a second, on a busy machine.
 constexpr double kLifetime_s = 2.0;
 
 /// A status has the name of its process before that of the nodelet.
@@ -43,14 +43,14 @@ FitToDrive::Verdict FitToDrive::verdict(double now_s) const {
   std::vector<std::tuple<int, std::string, int>> problems;
   for (const auto& [nodelet, heard] : nodelets_) {
     if (now_s - heard.time_s > kLifetime_s) {
-      problems.emplace_back(-severityOf(DiagnosticStatus::ERROR), nodelet + " says nothing any more",
+      problems.emplace_back(-severityOf(DiagnosticStatus::ERROR), nodelet + " has stopped reporting",
                             DiagnosticStatus::ERROR);
     } else if (heard.level != DiagnosticStatus::OK) {
       problems.emplace_back(-severityOf(heard.level), nodelet + ": " + heard.message, heard.level);
     }
   }
   if (nodelets_.empty()) {
-    return {DiagnosticStatus::WARN, "no nodelet has said anything yet"};
+    return {DiagnosticStatus::WARN, "no nodelet has reported yet"};
   }
   if (problems.empty()) {
     return {DiagnosticStatus::OK, kFitToDrive};

@@ -1,5 +1,5 @@
 #pragma once
-/// One word on all nodelets of a rover, from what each says of itself.
+/// One summary of all nodelets of a rover, from the status of each.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
@@ -9,32 +9,32 @@
 
 namespace slipnav {
 
-/// What nodelets of this package give as the hardware of their diagnostics, by which they are told from others.
+/// Hardware id in the diagnostics of this package's nodelets, which distinguishes them from others.
 inline constexpr const char* kHardwareId = "slipnav";
 
-/// Name of the status that sums up, in the namespace of the nodelets.
+/// Name of the summary status, in the namespace of the nodelets.
 inline constexpr const char* kFitToDrive = "fit to drive";
 
-/// The level of a status by how bad it is: what is not known is less so than what is wrong.
+/// Rank of a status level by severity: unknown is less severe than wrong.
 int severityOf(int level);
 
-/// Keeps the newest status of each nodelet. Times are real ones [s], of a clock that only runs forward.
+/// Keeps the newest status of each nodelet. Times are real time [s], of a monotonic clock.
 class FitToDrive {
  public:
-  /// @param name_space of the nodelets, as ROS resolves it; those of other rovers are passed over
+  /// @param name_space of the nodelets, as resolved by ROS; those of other rovers are ignored
   explicit FitToDrive(std::string name_space);
 
-  /// Name of the status that sums up, which is passed over as well.
+  /// Name of the summary status, which is ignored as well.
   const std::string& name() const { return name_; }
 
   void take(const diagnostic_msgs::DiagnosticArray& message, double now_s);
 
-  /// What the status says.
+  /// Content of the status.
   struct Verdict {
     int level;  ///< as in diagnostic_msgs/DiagnosticStatus
     std::string message;
   };
-  /// The worst first; a nodelet that has fallen silent is as bad as one that reports an error.
+  /// Worst first; a nodelet that has fallen silent is as bad as one that reports an error.
   Verdict verdict(double now_s) const;
 
  private:

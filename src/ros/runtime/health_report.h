@@ -1,5 +1,5 @@
 #pragma once
-/// What a HealthMonitor has found, as diagnostics.
+/// Alarms of a HealthMonitor as diagnostics.
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
@@ -11,15 +11,15 @@
 
 namespace slipnav {
 
-/// How long an alarm is a warning after it was seen last [s] of real time. Longer than between two reports, so that
-/// none is missed; short, so that who has mended something sees it.
+/// How long an alarm remains a warning after it was last seen [s] of real time. Longer than between two reports, so
+/// that none is missed; short, so that a fix shows immediately.
 inline constexpr double kAlarmLifetime_s = 1.0;
 
-/// Remembers when each alarm was seen last, in real time: where stamps stand still, alarms end nevertheless.
+/// Remembers when each alarm was last seen, in real time: where stamps stand still, alarms end nevertheless.
 class HealthReport {
  public:
-  /// Adds one line for each thing that has ever been wrong; those that are still are a warning.
-  /// @param now_s any clock that only runs forward
+  /// Adds one line for each problem so far; those still present are a warning.
+  /// @param now_s any monotonic clock
   void add(const HealthMonitor& health, double now_s, diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:

@@ -11,12 +11,12 @@
 
 namespace slipnav {
 
-/// A parameter tree as YAML. ROS splits keys at slashes; those of the block `topics` ("imu/data") are put together
+/// A parameter tree as YAML. ROS splits keys at slashes; those of the block `topics` ("imu/data") are joined
 /// again.
 YAML::Node toYamlNode(const XmlRpc::XmlRpcValue& value);
 
 /// The configuration in the tree `name`, relative to the node's namespace; defaults where there is nothing.
-/// Throws std::invalid_argument of one line that names the tree, the key and what is wrong.
+/// Throws std::invalid_argument with one line that names the tree, the key and what is wrong.
 Config configFromParameters(const ros::NodeHandle& node, const std::string& name);
 
 }  // namespace slipnav

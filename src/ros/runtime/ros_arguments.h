@@ -1,5 +1,5 @@
 #pragma once
-/// Arguments of a tool that roslaunch starts.
+/// Arguments of a tool started by roslaunch.
 
 #include <ros/init.h>
 
@@ -7,8 +7,8 @@
 
 namespace slipnav {
 
-/// What is left for `command_line` of a program's arguments when those of ROS are taken out.
-/// Throws as CommandLine::parse() does.
+/// Parses a program's arguments with `command_line` after removing those of ROS.
+/// Throws like CommandLine::parse().
 inline Arguments parseWithoutRosArguments(const CommandLine& command_line, int argc, char** argv) {
   ros::V_string words;
   ros::removeROSArgs(argc, argv, words);

@@ -1,5 +1,5 @@
 #pragma once
-/// Whether a sensor comes, and whether what comes can be used.
+/// Whether a sensor publishes, and whether its samples are usable.
 
 #include <string>
 #include <utility>
@@ -8,19 +8,19 @@
 
 namespace slipnav {
 
-/// Of one sensor, by the nodelet that needs it.
+/// For one sensor, in the nodelet that needs it.
 class SensorWatch {
  public:
   /// @param name of the sensor; @param limit_s how long it may be silent
   SensorWatch(std::string name, double limit_s) : name_(std::move(name)), used_(limit_s), heard_(limit_s) {}
 
-  /// A sample has come that could be used.
+  /// A usable sample has arrived.
   void used(const SilenceWatch::Now& now) {
     used_.heard(now);
     heard_.heard(now);
     refusal_.clear();
   }
-  /// A message has come that could not be used.
+  /// An unusable message has arrived.
   void refused(const std::string& why, const SilenceWatch::Now& now) {
     if (!used_.hasHeard()) {
       used_.heard(now);  // from the first message on, samples are due
@@ -29,8 +29,8 @@ class SensorWatch {
     refusal_ = why;
   }
 
-  /// What is wrong, with the cause; "" while samples come, and before the first message.
-  /// @param topic that samples should come on
+  /// What is wrong, with the cause; "" while samples arrive, and before the first message.
+  /// @param topic on which samples are expected
   std::string problem(const std::string& topic, const SilenceWatch::Now& now) const {
     if (!used_.isSilent(now)) {
       return "";
@@ -43,7 +43,7 @@ class SensorWatch {
   std::string name_;
   SilenceWatch used_;
   SilenceWatch heard_;
-  std::string refusal_;  ///< of the newest message; "" when it could be used
+  std::string refusal_;  ///< of the newest message; "" if it was usable
 };
 
 }  // namespace slipnav

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kNowhere = "none";
 
-/// As roscpp finds it; "" when there is none.
+/// As roscpp finds it; "" if there is none.
 std::string rosHome() {
   if (const char* home = std::getenv("ROS_HOME"); home != nullptr && *home != '\0') {
     return home;
@@ -24,7 +24,7 @@ std::string placeFor(const CheckpointParams& params, std::string node) {
   if (!params.stop_file.empty()) {
     return params.stop_file == kNowhere ? "" : params.stop_file;
   }
-  if (params.enabled()) {
+  if (!params.file.empty()) {  // not next to that of a launch, which the stop outlasts
     return params.file + ".stop";
   }
   std::replace(node.begin(), node.end(), '/', '_');

@@ -1,5 +1,5 @@
 #pragma once
-/// Where emergency stop and override are kept, and whether they could be.
+/// Where emergency stop and override are kept, and whether that worked.
 
 #include <string>
 
@@ -8,19 +8,19 @@
 
 namespace slipnav {
 
-/// The place is `checkpoint.stop_file`, else beside the checkpoint, else a file in ROS_HOME named after the node.
+/// The place is `checkpoint.stop_file`, else next to the checkpoint, else a file in ROS_HOME named after the node.
 class StopLatchKeeper {
  public:
   /// @param node full name of the nodelet
   StopLatchKeeper(const CheckpointParams& params, const std::string& node);
 
-  /// "" when nothing is kept.
+  /// "" if nothing is kept.
   const std::string& file() const { return file_; }
 
   /// What was kept. Never throws; problem() says what was wrong.
   StopLatch load();
 
-  /// @return why it is not kept, "" when it is. problem() says the same until something is kept.
+  /// @return why it is not kept, otherwise "". problem() says the same until something is kept.
   std::string save(const StopLatch& latch);
 
   const std::string& problem() const { return problem_; }

@@ -1,5 +1,5 @@
 #pragma once
-/// Who is at the other end of a topic, as the master knows it.
+/// Publishers and subscribers of a topic, as the master knows them.
 
 #include <string>
 #include <vector>
@@ -12,13 +12,13 @@ struct TopicEnds {
   std::vector<std::string> subscribers;
 };
 
-/// Nothing when the master does not answer. @param topic resolved
+/// Nothing if the master does not answer. @param topic resolved
 TopicEnds endsOf(const std::string& topic);
 
-/// Whether a node only looks on: what `rosbag record` and `rostopic` call themselves.
+/// Whether a node only records: the names that `rosbag record` and `rostopic` use.
 bool isRecorder(const std::string& node);
 
-/// The names with commas between.
+/// The names separated by commas.
 std::string joined(const std::vector<std::string>& names);
 
 }  // namespace slipnav

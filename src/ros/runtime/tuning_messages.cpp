@@ -10,7 +10,7 @@ namespace {
 
 using Values = dynamic_reconfigure::Config;
 
-/// The group that holds all others; tools expect it under this name.
+/// The group that contains all others; tools expect it under this name.
 constexpr const char* kRootGroup = "Default";
 constexpr double kLargest = std::numeric_limits<double>::max();
 
@@ -52,7 +52,7 @@ void add(const std::string& name, const ParameterValue& value, Values& message) 
   }
 }
 
-/// What the field may hold at one end of its range, in the field's own type.
+/// Limit of the field at one end of its range, in the field's own type.
 ParameterValue limitOf(const ParameterInfo& parameter, double limit) {
   if (std::holds_alternative<int>(parameter.value)) {
     constexpr double kLeastInt = std::numeric_limits<int>::min();

@@ -10,7 +10,7 @@
 
 namespace slipnav {
 
-/// The values alone, in groups by block.
+/// The values only, in groups by block.
 dynamic_reconfigure::Config toValues(const std::vector<ParameterInfo>& parameters);
 
 /// Names, types, ranges, choices and meanings; the values count as defaults.

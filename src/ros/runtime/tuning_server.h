@@ -1,7 +1,7 @@
 #pragma once
-/// Offers parameters of a running nodelet to the tools of dynamic_reconfigure.
+/// Offers parameters of a running nodelet to the dynamic_reconfigure tools.
 ///
-/// Names, ranges and meanings are those of the configuration, so there are no .cfg files beside it.
+/// Names, ranges and meanings are those of the configuration, so there are no .cfg files.
 
 #include <dynamic_reconfigure/ConfigDescription.h>
 #include <dynamic_reconfigure/Reconfigure.h>
@@ -24,22 +24,22 @@ class TuningServer {
       boost::function<bool(dynamic_reconfigure::Reconfigure::Request&, dynamic_reconfigure::Reconfigure::Response&)>;
 
   /// @param node the namespace of the nodelets; @param own that of this nodelet
-  /// @param nodelet what it is called in the table of tunable parameters; @param loaded as it was read
+  /// @param nodelet its name in the table of tunable parameters; @param loaded the configuration as read
   /// @param service answers `set_parameters`, with the functions below
   TuningServer(ros::NodeHandle& node, ros::NodeHandle& own, const std::string& nodelet, const Config& loaded,
                const Service& service);
 
-  /// The configuration with what a request wants. Throws std::invalid_argument of one line; also for a parameter that
-  /// this nodelet does not offer.
+  /// The configuration with the requested changes. Throws std::invalid_argument with one line; also for a parameter
+  /// that this nodelet does not offer.
   Config requested(const dynamic_reconfigure::Config& request, const Config& present) const;
 
-  /// The configuration has changed: tells the other nodelets. @return what differs from the last time
+  /// The configuration has changed: tells the other nodelets. @return the differences to the last time
   std::vector<ParameterDifference> take(const Config& present);
 
-  /// Tells the tools how things stand. @return the same, for the answer to a request
+  /// Tells the tools the current values. @return the same, for the answer to a request
   dynamic_reconfigure::Config announce();
 
-  /// What differs from the configuration as it was loaded, in words; "" for nothing.
+  /// Differences to the configuration as loaded, in words; "" if there are none.
   std::string changes() const { return toText(differences(loaded_, present_)); }
 
  private:
@@ -52,8 +52,8 @@ class TuningServer {
   ros::ServiceServer service_;
 };
 
-/// Puts changed parameters into the tree `name` of the parameter server, so that a nodelet which is loaded later has
-/// them. Does not wait for a master that is gone.
+/// Writes changed parameters to the tree `name` of the parameter server, for nodelets that are loaded
+/// later. Does not wait for a master that is gone.
 void store(const std::vector<ParameterDifference>& changed, const std::string& tree);
 
 }  // namespace slipnav

@@ -24,7 +24,7 @@ class MarkerSketch {
   visualization_msgs::Marker& add(const std::string& name, int id, int type, double width_m, const Colour& colour);
 
   void line(const std::string& name, int id, const std::vector<Vector3>& points, double width_m, const Colour& colour);
-  /// Text that faces the viewer, centred.
+  /// Text that faces the viewer, centered.
   void text(const std::string& name, int id, const Vector3& position, double height_m, const Colour& colour,
             const std::string& words);
   /// Flat disc.

@@ -1,5 +1,5 @@
 #pragma once
-/// The turning wheels of the rover model that rviz shows, whatever message the robot's wheels come in.
+/// The turning wheels of the rover model in rviz, whatever message type the robot's wheels use.
 
 #include <sensor_msgs/JointState.h>
 
@@ -10,8 +10,8 @@
 
 namespace slipnav {
 
-/// The model (urdf/pathfinder.urdf) has the four wheels of pathfinderWheels(). They turn as the robot's wheels do where
-/// that has four, known one by one, and else with its forward speed.
+/// The model (urdf/pathfinder.urdf) has the four wheels of pathfinderWheels(). They turn like the robot's wheels if
+/// it has four, each known, and otherwise with its forward speed.
 class ModelJoints {
  public:
   ModelJoints();

@@ -9,8 +9,8 @@
 namespace slipnav {
 namespace {
 
-constexpr double kLifetime_s = 2.0;          // of what comes with every estimate
-constexpr double kForecastLifetime_s = 6.0;  // of what comes once a second while driving
+constexpr double kLifetime_s = 2.0;          // of values that come with every estimate
+constexpr double kForecastLifetime_s = 6.0;  // of values that come once a second while driving
 constexpr double kStatusLifetime_s = 4.0;    // of diagnostics, which come once a second
 constexpr double kHistory_s = 300.0;
 
@@ -104,10 +104,10 @@ void OperatorView::addAlarms(double now_s, OperatorPicture& picture) const {
   for (const auto& [name, heard] : statuses_) {
     const std::string who = name.substr(name.rfind('/') + 1);
     if (who == kFitToDrive) {
-      continue;  // says the same once more
+      continue;  // repeats the same
     }
     if (now_s - heard.time_s > kStatusLifetime_s) {
-      picture.alarms.push_back({diagnostic_msgs::DiagnosticStatus::STALE, who + ": says nothing any more"});
+      picture.alarms.push_back({diagnostic_msgs::DiagnosticStatus::STALE, who + ": has stopped reporting"});
     } else if (heard.message.level != diagnostic_msgs::DiagnosticStatus::OK) {
       picture.alarms.push_back({heard.message.level, who + ": " + heard.message.message});
     }
@@ -130,7 +130,7 @@ OperatorPicture OperatorView::picture(double now_s) const {
     picture.reason = start_->message.progress;
   } else if (picture.isStale()) {
     picture.state = "NO DATA";
-    picture.reason = stop_ ? "nothing has come from the stop supervisor lately" : "waiting for the stop supervisor";
+    picture.reason = stop_ ? "nothing received from the stop supervisor lately" : "waiting for the stop supervisor";
   }
   if (isFresh(slip_, now_s, kLifetime_s)) {
     const double slip = slip_->message.mean_ratio;

@@ -1,5 +1,5 @@
 #pragma once
-/// What an operator has to know at a glance, gathered from messages. Knows nothing of windows.
+/// What an operator needs to know at a glance, collected from messages. Independent of any GUI.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <slipnav/ErrorForecast.h>
@@ -17,7 +17,7 @@
 
 namespace slipnav {
 
-/// How much it matters what is shown.
+/// How urgent the display is.
 enum class Mood { kStale, kStart, kDriving, kAhead, kStopping, kDanger };
 
 /// One complaint of the diagnostics.
@@ -30,15 +30,15 @@ struct OperatorAlarm {
 struct OperatorPicture {
   Mood mood = Mood::kStale;
   std::string state;      ///< in one or two words
-  std::string countdown;  ///< the only one; "" when there is none
+  std::string countdown;  ///< the only one; "" if there is none
   std::string reason;
   std::string slip;
   std::string since_stop;
-  std::string figures;            ///< of the whole drive; "" where nobody draws
+  std::string figures;            ///< of the whole drive; "" without Overlay
   std::optional<double> bound_m;  ///< now
   double threshold_m = 0.0;
   std::vector<std::pair<double, double>> history;  ///< age [s] and bound [m], oldest first
-  std::vector<OperatorAlarm> alarms;               ///< the worst first
+  std::vector<OperatorAlarm> alarms;               ///< worst first
   bool emergency_stop = false;
   bool overridden = false;
   int mode = 0;  ///< as in slipnav/StopStatus
@@ -46,7 +46,7 @@ struct OperatorPicture {
   bool isStale() const { return mood == Mood::kStale; }
 };
 
-/// All times are real ones [s], of a clock that only runs forward. What is old is not shown.
+/// All times are real time [s], of a monotonic clock. Old values are not shown.
 class OperatorView {
  public:
   void take(const StopStatus& message, double now_s);

@@ -17,7 +17,7 @@ constexpr double kSwatchLength_m = 1.6;
 constexpr double kSwatchWidth_m = 0.25;
 constexpr double kAboveGround_m = 1.5;  ///< all words float above whatever lies on the ground
 
-/// Of a line of text, roughly: rviz centres it, and does not say how long it is.
+/// Approximate width of a line of text: rviz centers it, and does not report its length.
 double widthOf(const std::string& words, double letter_height_m) {
   return kLetterWidth * letter_height_m * static_cast<double>(words.size());
 }
@@ -34,7 +34,7 @@ std::string errorLine(const DrivePicture& picture) {
   return line;
 }
 
-/// One line of the legend: a swatch that goes from one colour to another, and what it means.
+/// One line of the legend: a swatch that blends one color into another, and its meaning.
 struct Entry {
   Colour from;
   Colour to;

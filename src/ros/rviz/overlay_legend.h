@@ -1,5 +1,5 @@
 #pragma once
-/// The words of the overlay.
+/// The text of the overlay.
 
 #include <string>
 
@@ -11,7 +11,7 @@ namespace slipnav {
 /// Printf-style number: `formatted(0.123, 2)` is "0.12".
 std::string formatted(double value, int decimals);
 
-/// What the colours mean; placed from the rover.
+/// What the colors mean; placed relative to the rover.
 void drawLegend(const OverlayParams& params, MarkerSketch& sketch);
 
 }  // namespace slipnav

@@ -18,9 +18,9 @@ constexpr double kSlipWidth_m = 0.6;
 constexpr double kStopDiameter_m = 0.9;
 constexpr float kFanAlpha = 0.7F;
 constexpr double kForecastLifetime_s = 5.0;
-constexpr double kLifetimeOfNow_s = 3.0;  // by the clock of ROS; some periods of publishing
+constexpr double kLifetimeOfNow_s = 3.0;  // by the ROS clock; some publishing periods
 
-// Heights against the track that keep apart, seen from above, what lies on the same spot [m].
+// Heights relative to the track that separate, seen from above, items at the same spot [m].
 constexpr double kFanHeight_m = -0.10;
 constexpr double kSlipHeight_m = -0.06;
 constexpr double kStopHeight_m = -0.03;
@@ -105,7 +105,7 @@ void drawStopAhead(const Course& course, const ErrorForecast& forecast, MarkerSk
   sketch.line("stop ahead", 0, {at[0].left_enu_m, at[0].right_enu_m}, 2.0 * kThinLine_m, kLimitColour);
 }
 
-/// What is of now goes by itself when this nodelet has died.
+/// Drawings of the present disappear by themselves if this nodelet dies.
 void limitLifetime(std::vector<Marker>& markers) {
   for (Marker& marker : markers) {
     const bool is_of_now = marker.ns == "forecast" || marker.ns == "horizon" || marker.ns == "stop ahead" ||

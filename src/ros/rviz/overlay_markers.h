@@ -1,5 +1,5 @@
 #pragma once
-/// The picture of a drive as messages for rviz. See doc/visualisation.md for what each of them looks like.
+/// The drawing of a drive as rviz messages. See doc/visualisation.md for their appearance.
 
 #include <nav_msgs/Path.h>
 #include <slipnav/ErrorForecast.h>
@@ -13,24 +13,24 @@
 
 namespace slipnav {
 
-/// What is drawn beside the picture of the drive.
+/// What is drawn besides the track of the drive.
 struct OverlayMessages {
-  ErrorForecast::ConstPtr error_forecast;  ///< the newest one; null where there is none
-  bool stale = false;                      ///< no estimates come any more: what is of now alone is left out
+  ErrorForecast::ConstPtr error_forecast;  ///< the newest one; null if there is none
+  bool stale = false;                      ///< estimates have stopped: only drawings of the present are removed
 };
 
-/// Distance, error against the truth where there is one, and 3σ, in one line.
+/// Distance, error against the truth if there is one, and 3σ, in one line.
 std::string figuresOf(const DrivePicture& picture);
 
 /// @param frame_id the map frame
 nav_msgs::Path toPath(const DisplayTrack& track, const std::string& frame_id);
 
-/// Everything but the three paths. Empty before the drive begins.
+/// Everything except the three paths. Empty before the drive begins.
 class OverlayMarkers {
  public:
   OverlayMarkers(const OverlayParams& params, std::string frame_id) : params_(params), frame_id_(std::move(frame_id)) {}
 
-  /// What is there now, and deletions of what was there the last time and is no more.
+  /// Current markers, and deletions of those that no longer exist.
   visualization_msgs::MarkerArray make(const DrivePicture& picture, const OverlayMessages& messages);
 
  private:

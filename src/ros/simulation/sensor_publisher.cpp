@@ -7,7 +7,7 @@
 namespace slipnav {
 namespace {
 
-/// In real time, as rosbag play has it: every node listens to the clock, and wakes up for it.
+/// In real time, like rosbag play: every node listens to the clock, and wakes up for it.
 const ros::WallDuration kClockInterval(0.01);
 
 template <class Message>

@@ -1,5 +1,5 @@
 #pragma once
-/// Publishes what the simulated rover measures, and its clock.
+/// Publishes the simulated rover's measurements, and its clock.
 
 #include <ros/node_handle.h>
 #include <rosgraph_msgs/Clock.h>
@@ -14,15 +14,15 @@ namespace slipnav {
 /// The publishers of the nodelets Simulator and SimulatedRover.
 class SensorPublisher {
  public:
-  /// Whether time is that of the simulation.
+  /// Whether time is simulated.
   enum class Clock { kSimulated, kNone };
 
   SensorPublisher(ros::NodeHandle& node, const Config& config, Clock clock = Clock::kSimulated);
 
-  /// One interval: the clock at its end, unless it has just been told, then the samples in order of their stamps.
+  /// One interval: the clock at its end, unless it was just published, then the samples in order of their stamps.
   void publish(const sim::Measurements& measurements, const sim::TruthState& truth);
 
-  /// Somebody listens to each of the sensors that the navigation has.
+  /// Each sensor used by the navigation has a subscriber.
   bool areHeard() const { return imu_.hasSubscribers() && joints_.hasSubscribers() && gps_.hasSubscribers(); }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// The result of a simulated drive through the nodelets, beside that of the offline pipeline.
+/// The result of a simulated drive through the nodelets, compared with the offline pipeline.
 
 #include <string>
 
@@ -14,7 +14,7 @@ class SimulationResult : public DriveJudge {
  public:
   /// @param folder for the files of writeRunReport(); empty: none
   /// @param plots into that folder
-  /// @param autonomous the supervisor stops the rover, at the threshold of the configuration
+  /// @param autonomous the supervisor stops the rover, at the configured threshold
   SimulationResult(const Config& config, const std::string& folder, bool plots, bool autonomous);
 
   void add(const sim::Measurements& measurements, const sim::TruthState& truth) override;

@@ -15,7 +15,7 @@ double gravityAt(const Planet& planet, double latitude_deg, double height_m) {
   return planet.gravity_n({degToRad(latitude_deg), 0.0, height_m}).z();
 }
 
-/// Position from the planet's centre, by the textbook formula (Groves 2.112).
+/// Position from the planet's center, by the textbook formula (Groves 2.112).
 Vector3 cartesian(const Planet& planet, const Geodetic& place) {
   const double f = planet.flattening();
   const double normal_m = planet.transverseRadius(place.latitude_rad);

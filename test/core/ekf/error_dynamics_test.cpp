@@ -1,4 +1,4 @@
-/// F and Φ against the strapdown mechanisation itself: how the difference of two neighbouring trajectories grows.
+/// F and Φ against the strapdown mechanization itself: how the difference of two neighboring trajectories grows.
 
 #include "slipnav/core/ekf/error_dynamics.h"
 
@@ -91,7 +91,7 @@ struct Block {
   const char* name;
   int row;
   int column;
-  double absolute;  ///< what the linearisation leaves out on purpose, and the numbers' digits
+  double absolute;  ///< deliberately neglected by the linearization, and rounding
   double smallest;  ///< magnitude that the block has to reach in the fast situations, else the test says nothing
 };
 
@@ -130,7 +130,7 @@ TEST(ErrorDynamics, EveryBlockOfFAgreesWithTheMechanisation) {
   }
 }
 
-/// Φ of half a second against the mechanisation over half a second: the blocks that first order leaves empty are right.
+/// Φ of half a second against the mechanization over half a second: the blocks that first order leaves empty are right.
 TEST(ErrorDynamics, TransitionIsOfSecondOrder) {
   const ErrorDynamics model = dynamics();
   sim::RandomStream random(7, "transition");

@@ -108,7 +108,7 @@ TEST(ErrorState, ASmallCorrectionIsThePlainDifference) {
   EXPECT_LT((nothing.accel_bias - Matrix3::Identity()).norm(), 1e-12);
 }
 
-/// A turn of everything about the vertical at the point of linearisation before becomes one at the point after.
+/// A turn of everything about the vertical at the point of linearization before becomes one at the point after.
 TEST(ErrorState, AResetKeepsTheHeadingUnobservable) {
   const Planet earth = Planet::byName("earth");
   sim::RandomStream random(6, "states");

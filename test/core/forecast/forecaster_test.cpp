@@ -101,7 +101,7 @@ TEST_F(ForecasterTest, BoundGrowsFromTheStopAndSaysWhenToStop) {
 }
 
 /// After hours the heading is uncertain, and the position with it. That the rover gains speed must not be taken for a
-/// sight of the heading, which would move the position by metres.
+/// sight of the heading, which would move the position by meters.
 TEST_F(ForecasterTest, GainingSpeedTellsNothingAboutTheHeading) {
   constexpr double kHeadingStd = 0.05;
   P_(kAttitude + 2, kAttitude + 2) = kHeadingStd * kHeadingStd;
@@ -151,15 +151,6 @@ TEST_F(ForecasterTest, MoreSlipMeansAnEarlierStop) {
   const double late_m = drive(calm, 150, 0.002).value().error.horizontal_bound_m.back();
   const double early_m = drive(slippery, 150, 0.3).value().error.horizontal_bound_m.back();
   EXPECT_GT(early_m, 1.05 * late_m);
-}
-
-TEST_F(ForecasterTest, PapersScheduleForecastsOncePerWindow) {
-  ForecastParams params;
-  params.schedule = "paper";
-  params.slip.model = "paper";
-  Forecaster forecaster = make(params);
-  ASSERT_TRUE(drive(forecaster, 460, 0.02));
-  EXPECT_EQ(forecasts_, 3);
 }
 
 TEST_F(ForecasterTest, ConstantSlipAndSlipThatIsNotANumberAreForecast) {
@@ -255,7 +246,7 @@ TEST_F(ForecasterTest, NoiseThatTheFilterTakesOtherwiseCountsInTheBound) {
   EXPECT_GT(drive(retuned, 150, 0.02).value().error.horizontal_bound_m.back(), 1.01 * kept_m);
 }
 
-/// Slip that comes and goes by more than the filter has learned is the noise of its own estimate.
+/// Slip that varies by more than the filter has learned is the noise of its own estimate.
 TEST_F(ForecasterTest, SlipThatComesAndGoesIsWhatTheFilterHasLearned) {
   const VehicleModelParams vehicle;
   Forecaster forecaster = make();
@@ -265,7 +256,7 @@ TEST_F(ForecasterTest, SlipThatComesAndGoesIsWhatTheFilterHasLearned) {
   EXPECT_GT(drive(on_rough_ground, 150, 0.3).value().outlook.change_std, 1.2 * vehicle.fast_slip_std);
 }
 
-/// A slip of 5 % that stays is more than the filter expects only where its velocity is known well enough to tell.
+/// A persistent slip of 5 % is more than the filter expects only if its velocity is known well enough to show it.
 TEST_F(ForecasterTest, SlipThatStaysCountsAsFarAsItStandsOutOfTheVelocityError) {
   const VehicleModelParams vehicle;
   Forecaster sure = make();
@@ -275,7 +266,7 @@ TEST_F(ForecasterTest, SlipThatStaysCountsAsFarAsItStandsOutOfTheVelocityError) 
   EXPECT_DOUBLE_EQ(drive(unsure, 150, 0.002).value().outlook.drift_std, vehicle.slow_slip_std);
 }
 
-/// On a road less than the usual slip is forecast, but never less than the velocity's error would hide.
+/// On a road less than the usual slip is forecast, but never less than the velocity error could hide.
 TEST_F(ForecasterTest, RoadIsForecastAsGoodAsItIsKnownToBe) {
   const VehicleModelParams vehicle;
   base_slip_ = 0.0;
@@ -289,7 +280,7 @@ TEST_F(ForecasterTest, RoadIsForecastAsGoodAsItIsKnownToBe) {
   EXPECT_LT(drift_std, vehicle.slow_slip_std);
 }
 
-/// Where the filter has opened slip and speed, which the wheels cannot tell apart, the error grows by what it doubts.
+/// Where the filter has inflated slip and speed, which the wheels cannot distinguish, the error grows accordingly.
 TEST_F(ForecasterTest, DoubtOfTheFilterIsDoubtOfTheForecast) {
   constexpr double kDoubt = 0.3;
   Forecaster calm = make();

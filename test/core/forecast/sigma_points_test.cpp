@@ -100,18 +100,35 @@ TEST(SigmaPoints, ClampedShortOfThePole) {
   }
 }
 
-TEST(SigmaPoints, ThePapersFormToTheLetter) {
+TEST(SigmaPoints, ThePapersPointsAndItsFormToTheLetter) {
+  constexpr double kMean = 0.1;
+  constexpr double kStddev = 0.1;
+  for (const bool letter : {false, true}) {
+    SigmaPointParameters parameters;
+    parameters.form = letter ? "letter" : "paper";
+    const double half_width = letter ? kStddev * kStddev : kStddev;
+    const double a = kSpeed / (1.0 - kMean);
+    const double b = kSpeed / (1.0 - kMean - half_width);
+    const double c = kSpeed / (1.0 - kMean + half_width);
+    const double mean = (a + b + c) / 3.0;
+    const double spread = ((a - mean) * (a - mean) + (b - mean) * (b - mean) + (c - mean) * (c - mean)) / 3.0;
+    const double variance = letter ? spread * spread : spread;
+    const WheelSpeedPrediction prediction = SigmaPoints(parameters).predict(kSpeed, kMean, kStddev);
+    EXPECT_NEAR(prediction.mean_mps, mean, 1e-14);
+    EXPECT_NEAR(prediction.variance, variance, 1e-6 * variance);
+  }
+}
+
+TEST(SigmaPoints, PointsAreThoseThatThePredictionIsMadeOf) {
   SigmaPointParameters parameters;
   parameters.form = "paper";
-  const double variance = 0.01;  // of slip
-  const double a = kSpeed / (1.0 - 0.1);
-  const double b = kSpeed / (1.0 - 0.1 - variance);
-  const double c = kSpeed / (1.0 - 0.1 + variance);
-  const double mean = (a + b + c) / 3.0;
-  const double sigma = ((a - mean) * (a - mean) + (b - mean) * (b - mean) + (c - mean) * (c - mean)) / 3.0;
-  const WheelSpeedPrediction prediction = SigmaPoints(parameters).predict(kSpeed, 0.1, 0.1);
-  EXPECT_NEAR(prediction.mean_mps, mean, 1e-14);
-  EXPECT_NEAR(prediction.variance, sigma * sigma, 1e-6 * sigma * sigma);
+  const auto [center, above, below] = SigmaPoints(parameters).points(kSpeed, -0.2, 0.1);
+  EXPECT_NEAR(center, kSpeed / 1.2, 1e-14);
+  EXPECT_NEAR(above, kSpeed / 1.1, 1e-14);
+  EXPECT_NEAR(below, kSpeed / 1.3, 1e-14);
+  const auto [mean, right, left] = SigmaPoints({}).points(kSpeed, -0.3, 0.05);
+  EXPECT_NEAR(mean, kSpeed * 0.7, 1e-14);
+  EXPECT_NEAR(right - left, 2.0 * std::sqrt(3.0) * 0.05 * kSpeed, 1e-14);
 }
 
 TEST(SigmaPoints, WrongParametersAreRefused) {

@@ -178,7 +178,7 @@ TEST(InsEngine, CorrectionsOfStepsThatAreNotThereAreRefused) {
   const std::vector<ImuSample> imu = samples(50);
   InsEngine engine = filled(imu);
   const std::vector<InsStep> steps = drain(engine);
-  EXPECT_FALSE(engine.correct({49, 1, stateAt(0)}));  // not mechanised yet
+  EXPECT_FALSE(engine.correct({49, 1, stateAt(0)}));  // not mechanized yet
   EXPECT_TRUE(engine.correct({30, 1, steps[30].state}));
   drain(engine);
   EXPECT_FALSE(engine.correct({29, 2, steps[29].state}));  // given up by the one before

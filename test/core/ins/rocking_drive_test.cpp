@@ -1,4 +1,4 @@
-/// Free inertial navigation on a rover that rocks hard, with an IMU without errors: only the mechanisation is to blame.
+/// Free inertial navigation on a rover that rocks hard, with an IMU without errors: only the mechanization is to blame.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// How fast the mechanisation's errors vanish with the interval, and what sampling does to them.
+/// How fast the mechanization's errors vanish with the interval, and what sampling does to them.
 
 #include <gtest/gtest.h>
 
@@ -66,7 +66,7 @@ TEST(StrapdownOrder, ScullingDriftIsOfFourthOrder) {
   EXPECT_LT(drift(20.0), 1e-3 * 0.5 * 0.1 * amplitude_m * frequency_radps * frequency_radps * duration_s);
 }
 
-/// All of it together converges at least as T², and is good to centimetres in a minute at the lowest rate allowed.
+/// All of it together converges at least as T², and is good to centimeters in a minute at the lowest rate allowed.
 TEST(StrapdownOrder, RoughRideConvergesFrom20To1000Hz) {
   const AnalyticMotion motion = roughRide();
   const double duration_s = 60.0;

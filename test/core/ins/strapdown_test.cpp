@@ -1,4 +1,4 @@
-/// Mechanisation on motion that is known in closed form: rest, travel over the ellipsoid, rotation, free fall.
+/// Mechanization on motion that is known in closed form: rest, travel over the ellipsoid, rotation, free fall.
 
 #include "slipnav/core/ins/strapdown.h"
 
@@ -35,8 +35,8 @@ Mismatch mismatchAfter(const AnalyticMotion& motion, double duration_s, double r
   return mismatch(motion.planet(), mechanise(motion, duration_s, rate_hz), motion.state(duration_s));
 }
 
-/// An hour at rest. What a step leaves out is of second order in the turn of the planet in it: g (ω_ie T)² ≈ 2e-11
-/// m/s², a tenth of a millimetre in an hour; the vertical channel amplifies rounding by e^(t √(2g/R)) ≈ 700, and next
+/// An hour at rest. What a step neglects is of second order in the planet's rotation during it: g (ω_ie T)² ≈ 2e-11
+/// m/s², a tenth of a millimeter in an hour; the vertical channel amplifies rounding by e^(t √(2g/R)) ≈ 700, and next
 /// to the pole tan L = 570 turns it into heading.
 TEST(Strapdown, StaysWhereItIsAtRest) {
   const Planet earth = Planet::byName("earth");

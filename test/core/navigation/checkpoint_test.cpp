@@ -73,19 +73,19 @@ TEST(Checkpoint, EveryChangedCharacterIsNoticed) {
 
 TEST(Checkpoint, RefusalsNameWhatIsWrong) {
   const std::string text = formatCheckpoint(someCheckpoint());
-  EXPECT_EQ(refusalOf(""), "checkpoint is of another format or version");
-  EXPECT_EQ(refusalOf(replaced(text, "checkpoint 1", "checkpoint 2")), "checkpoint is of another format or version");
-  EXPECT_EQ(refusalOf(text.substr(0, text.size() / 2)), "checkpoint is cut off");
+  EXPECT_EQ(refusalOf(""), "checkpoint has another format or version");
+  EXPECT_EQ(refusalOf(replaced(text, "checkpoint 1", "checkpoint 2")), "checkpoint has another format or version");
+  EXPECT_EQ(refusalOf(text.substr(0, text.size() / 2)), "checkpoint is truncated");
   EXPECT_EQ(refusalOf(replaced(text, "session 3", "session 4")), "checkpoint is damaged: its checksum is wrong");
 }
 
 TEST(Checkpoint, NumbersThatAreNoStateAreRefused) {
   Checkpoint checkpoint = someCheckpoint();
   checkpoint.state.P(4, 4) = -1.0;
-  EXPECT_EQ(refusalOf(formatCheckpoint(checkpoint)), "checkpoint holds numbers that cannot be a state");
+  EXPECT_EQ(refusalOf(formatCheckpoint(checkpoint)), "checkpoint contains an impossible state");
   checkpoint = someCheckpoint();
   checkpoint.state.nav.q_b_to_n.coeffs() *= 1.1;
-  EXPECT_EQ(refusalOf(formatCheckpoint(checkpoint)), "checkpoint holds numbers that cannot be a state");
+  EXPECT_EQ(refusalOf(formatCheckpoint(checkpoint)), "checkpoint contains an impossible state");
   checkpoint = someCheckpoint();
   checkpoint.state.nav.v_eb_n.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusalOf(formatCheckpoint(checkpoint)), "checkpoint has a wrong value in 'v_eb_n'");

@@ -121,7 +121,7 @@ TEST(FixStart, NamesAReceiverInGpsTime) {
   config.simulator.drive.initial_straight_m = 40.0;
   const FixStart start = startUnder(config, [](int, PositionFix& fix) { fix.stamp -= 18 * kSecond; });
   EXPECT_FALSE(start.initial);
-  EXPECT_NE(start.progress.find("gps/fix is stamped 18.0 s too early against wheels and gyro (18 s: GPS time"),
+  EXPECT_NE(start.progress.find("gps/fix is stamped 18.0 s too early relative to wheels and gyro (18 s: GPS time"),
             std::string::npos)
       << start.progress;
 }

@@ -17,7 +17,7 @@ TEST(HealthMonitor, NamesWhatIsWrongWithTheImu) {
   health.noteImu(12 * kSecond, ImuVerdict::kStuck);
   health.noteImu(13 * kSecond, ImuVerdict::kStuck);
   ASSERT_EQ(health.alarms().size(), 2U);
-  const Alarm& stuck = health.alarms().at("IMU sample an axis does not change any more");
+  const Alarm& stuck = health.alarms().at("IMU sample with a stuck axis");
   EXPECT_EQ(stuck.first, 12 * kSecond);
   EXPECT_EQ(stuck.last, 13 * kSecond);
   EXPECT_EQ(stuck.count, 2U);
@@ -47,7 +47,7 @@ TEST(HealthMonitor, SilentAndContradictingWheelsAreNoticed) {
   EXPECT_GE(health.alarms().at("wheels silent").first, silent_from);
 }
 
-/// A measurement that was rejected for long and is not made any more contradicts nothing.
+/// A measurement that was rejected for long and is no longer made contradicts nothing.
 TEST(HealthMonitor, WhatIsNotMeasuredContradictsNothing) {
   const Config config = driveConfig(6.0);
   const RecordedDrive drive = recordDrive(config);

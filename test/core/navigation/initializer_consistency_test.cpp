@@ -1,4 +1,4 @@
-/// Whether the covariance that the initialisation hands over is honest.
+/// Whether the covariance that the initialization hands over is honest.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace slipnav::test {
 namespace {
 
-/// Squared normalised errors, each divided by its degrees of freedom, over independent starts: one in the mean when the
+/// Squared normalized errors, each divided by its degrees of freedom, over independent starts: one in the mean when the
 /// covariance that is handed over is honest.
 struct MeanNees {
   double position = 0.0;

@@ -68,7 +68,7 @@ TEST(Initializer, SaysThatFixesHaveStopped) {
   EXPECT_LT(sigmas(start, kAttitude + 2), 3.5);
 }
 
-/// Positions that are a metre off say little about the course over ten; velocities say it within a degree.
+/// Positions that are a meter off say little about the course over ten; velocities say it within a degree.
 TEST(Initializer, SatelliteVelocitiesHelpPoorPositions) {
   constexpr int kStarts = 10;
   double without = 0.0;
@@ -239,7 +239,7 @@ TEST(Initializer, IsNotMisledByBadSamples) {
   EXPECT_FALSE(initializer.result());
 }
 
-/// A gap longer than the levelling window leaves one sample in it.
+/// A gap longer than the leveling window leaves one sample in it.
 TEST(Initializer, LevelsAfterAGapOfTheImu) {
   for (const std::string source : {"given", "gnss"}) {
     Config config;

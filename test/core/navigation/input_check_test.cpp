@@ -94,7 +94,7 @@ TEST(InputCheck, namesWheelsWithoutSign) {
   Drive drive;
   drive.direction = -1.0;
   drive.unsigned_wheels = true;
-  EXPECT_TRUE(has(drive.complaint(), "disagree on the direction: the wheels' speed has no sign")) << drive.complaint();
+  EXPECT_TRUE(has(drive.complaint(), "disagree on the direction: the wheel speed has no sign")) << drive.complaint();
   drive.direction = 1.0;
   EXPECT_EQ(drive.complaint(), "");
 }

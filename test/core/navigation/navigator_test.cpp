@@ -199,7 +199,7 @@ TEST(Navigator, RepeatedSamplesMakeNoDifference) {
   EXPECT_TRUE(sameEstimates(runNavigator(config(), drive().initial, twice), sequentialRun()));
 }
 
-/// Without wheels the estimate goes on, less and less sure of itself.
+/// Without wheels the estimate continues, with growing uncertainty.
 TEST(Navigator, GoesOnThroughAWheelOutage) {
   const Nanoseconds start = drive().initial.nav.stamp;
   std::vector<DriveSample> samples;

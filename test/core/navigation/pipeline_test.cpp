@@ -10,7 +10,7 @@
 namespace slipnav::test {
 namespace {
 
-/// A pipeline that starts from a given heading, levelled at rest.
+/// A pipeline that starts from a given heading, leveled at rest.
 class PipelineTest : public ::testing::Test {
  protected:
   static Config config() {
@@ -46,7 +46,7 @@ TEST_F(PipelineTest, StartsAndEstimates) {
   EXPECT_EQ(pipeline_.counts().rejected, 0U);
   EXPECT_EQ(pipeline_.counts().restarts, 0U);
   EXPECT_EQ(pipeline_.counts().imu + pipeline_.counts().wheels, drive_.samples.size());
-  // samples from before the initialisation ended are used: estimates begin right after the initial state
+  // samples from before the initialization ended are used: estimates begin right after the initial state
   EXPECT_EQ(estimates_.front().stamp, pipeline_.initial()->nav.stamp + 20'000'000);
 }
 
@@ -77,7 +77,7 @@ TEST_F(PipelineTest, BeginsAnewWhenTheClockGoesBack) {
   EXPECT_TRUE(estimates_.back().v_eb_n == first.back().v_eb_n);
 }
 
-/// Who listens changes nothing, and goes on listening when the clock has gone back.
+/// A listener changes nothing, and keeps listening when the clock has gone back.
 TEST_F(PipelineTest, InnovationsAreToldAcrossRestarts) {
   feed();
   const std::vector<NavigationState> silent = estimates_;

@@ -49,6 +49,15 @@ TEST_F(ResumptionTest, WithoutAFileNothingIsPossible) {
   EXPECT_FALSE(resumption().isPossible());
 }
 
+TEST_F(ResumptionTest, TheFileOfALaunchServesWhereNoOtherIsNamed) {
+  params_.launch_file = params_.file + "_launch";
+  EXPECT_EQ(params_.place(), file_);
+  EXPECT_TRUE(resumption().isPossible());
+  params_.file.clear();
+  EXPECT_EQ(params_.place(), params_.launch_file);
+  EXPECT_FALSE(resumption().isPossible());
+}
+
 TEST_F(ResumptionTest, ADamagedFileIsNamed) {
   std::ofstream(file_, std::ios::app) << "x";
   const Resumption resumption = this->resumption();

@@ -136,7 +136,7 @@ TEST_F(SampleMergerTest, WhatFollowsARestartComesAfterTheRest) {
   EXPECT_EQ(flush(), "w95000 i95000 i10 w20 i30 w120 ");
 }
 
-/// By a clock that was set back the wheels of before and after are told from each other, and time goes on.
+/// With a clock set back, wheel samples before and after are distinguished, and time continues.
 TEST_F(SampleMergerTest, TimeGoesOnWhenTheClockIsSetBack) {
   for (Nanoseconds ms = 1000; ms <= 9980; ms += 20) {
     merger_.push(imuAt(ms));

@@ -67,11 +67,11 @@ std::vector<Event> events() {
        {kD, kD, kC, kS, kH}},
       {"silence of the forecasts",
        [](Rig& r) { r.during(5.1, [&r] { r.moving(); }); },
-       {kD, kS, kS, kS, kD},  // after ten seconds of driving, the periodic stop has come; the stop under way goes on
+       {kD, kS, kS, kS, kD},  // after ten seconds of driving, a periodic stop is due; the stop in progress continues
        {kD, kS, kS, kS, kD}},
       {"silence of the estimates",
        [](Rig& r) { r.supervisor.loseEstimates(); },
-       {kD, kD, kD, kS, kD},  // a stop that is under way goes on
+       {kD, kD, kD, kS, kD},  // a stop in progress continues
        {kD, kD, kD, kD, kD}},
       {"the operator's wish for a stop",
        [](Rig& r) { r.supervisor.stopNow(); },

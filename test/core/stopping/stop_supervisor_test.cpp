@@ -51,7 +51,7 @@ TEST(StopSupervisor, StopsInTimeToStandWhenTheThresholdIsReached) {
   EXPECT_EQ(rig.state(), kC);
   rig.moving();
   EXPECT_EQ(rig.state(), kS);
-  EXPECT_EQ(rig.supervisor.status().reason, "the position error comes to its threshold");
+  EXPECT_EQ(rig.supervisor.status().reason, "the position error reaches its threshold");
 }
 
 TEST(StopSupervisor, ANewForecastMovesTheCountdown) {
@@ -190,7 +190,7 @@ TEST(StopSupervisor, AfterAStopTheOldForecastIsVoidAndThereIsTimeToDrive) {
   situations()[4].reach(rig);
   rig.during(1.0, [&rig] { rig.standing(1e-5); });
   EXPECT_EQ(rig.supervisor.status().reason, "no forecast since the last stop");
-  rig.forecast(0.0);  // the threshold is below what one metre costs
+  rig.forecast(0.0);  // the threshold is below what one meter costs
   EXPECT_EQ(rig.state(), kC);
   rig.during(4.6, [&rig] { rig.moving(); });
   EXPECT_EQ(rig.state(), kC);
@@ -216,6 +216,35 @@ TEST(StopSupervisor, StaleForecastsMakeStopsPeriodic) {
   EXPECT_EQ(rig.state(), kD);
 }
 
+TEST(StopSupervisor, ForecastThatIsKeptIsNotStaleBeforeItsStop) {
+  Rig rig("active");
+  driveTenSeconds(rig);
+  rig.forecast(30.0, 30.0);
+  rig.during(28.3, [&rig] { rig.moving(); });
+  EXPECT_FALSE(rig.supervisor.status().forecasts_stale);
+  EXPECT_EQ(rig.state(), kC);
+  rig.during(0.2, [&rig] { rig.moving(); });
+  EXPECT_EQ(rig.state(), kS) << "30 s less the time to slow down";
+  EXPECT_EQ(rig.supervisor.status().reason, "the position error reaches its threshold");
+}
+
+TEST(StopSupervisor, ForecastIsKeptNoLongerThanItSaysNorPastAStandstill) {
+  Rig rig("advise");
+  driveTenSeconds(rig);
+  rig.forecast(kInfinity, 10.0);
+  rig.during(15.0, [&rig] { rig.moving(); });
+  EXPECT_FALSE(rig.supervisor.status().forecasts_stale);
+  rig.during(0.2, [&rig] { rig.moving(); });
+  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
+  rig.forecast(kInfinity, 1000.0);
+  rig.during(2.0, [&rig] { rig.standing(1e-5); });
+  rig.during(5.2, [&rig] { rig.moving(); });
+  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
+  rig.forecast(kInfinity, std::nan(""));
+  rig.during(5.2, [&rig] { rig.moving(); });
+  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
+}
+
 TEST(StopSupervisor, AStandstillOfTheOperatorsOwnCountsForThePeriod) {
   Rig rig("active");
   rig.during(9.0, [&rig] { rig.moving(); });
@@ -238,7 +267,7 @@ TEST(StopSupervisor, ASlidingRoverIsNotHeld) {
   rig.moving();
   rig.forecast(0.0);
   EXPECT_EQ(rig.supervisor.status().reason,
-            "the rover slides: its wheels stand, but it does not; next stop not before 30.0 s");
+            "the rover slides: its wheels are at rest, but it is not; next stop not before 30.0 s");
   EXPECT_GT(rig.drive().linear_mps.x(), 0.0);
   rig.during(28.0, [&rig] {
     rig.moving();
@@ -271,7 +300,7 @@ TEST(StopSupervisor, AdviceStandsUntilItIsFollowed) {
   rig.standing();
   EXPECT_EQ(rig.state(), kH);
   rig.moving();
-  EXPECT_EQ(rig.supervisor.status().reason, "driven on before the velocity had converged");
+  EXPECT_EQ(rig.supervisor.status().reason, "resumed before the velocity had converged");
 }
 
 TEST(StopSupervisor, OtherTimesHoldFromTheNextEstimateOn) {

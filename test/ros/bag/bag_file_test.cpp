@@ -149,7 +149,7 @@ boost::shared_ptr<ros::M_string> headerOf() {
   return header;
 }
 
-/// As when another node took the topic over while the recording went on.
+/// As if another node took over the topic during the recording.
 TEST_F(BagFileTest, NamesATopicWithMessagesOfTwoTypes) {
   {
     rosbag::Bag bag(bag_.path(), rosbag::bagmode::Write);

@@ -1,4 +1,4 @@
-/// The command check on recordings: a simulated drive, the same spoilt, parts, and files that are none.
+/// The command check on recordings: a simulated drive, the same corrupted, parts, and files that are not recordings.
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>

@@ -52,7 +52,7 @@ class BagPoses : public ::testing::Test {
 
 TEST_F(BagPoses, ComeByTheStampOfTheirHeader) {
   const std::vector<TumPose> poses = readPoses({bag_.path()}, "vio/odometry");
-  ASSERT_EQ(poses.size(), 5U) << "what is no pose is left out";
+  ASSERT_EQ(poses.size(), 5U) << "anything but a pose is skipped";
   EXPECT_EQ(poses[2].stamp, fromSeconds(103.0));
   EXPECT_DOUBLE_EQ(poses[2].position_enu_m.x(), 206.0);
   EXPECT_DOUBLE_EQ(poses[2].q_flu_to_enu.z(), 1.0);
@@ -72,7 +72,7 @@ TEST_F(BagPoses, ATopicThatIsNotThereIsNamed) {
 TEST_F(BagPoses, ATopicWithoutPosesIsNamed) {
   EXPECT_NE(messageOf<std::invalid_argument>([&] {
               readPoses({bag_.path()}, "/words");
-            }).find("'/words' is of type std_msgs/String, which is none of nav_msgs/Odometry"),
+            }).find("'/words' is of type std_msgs/String, which is not one of nav_msgs/Odometry"),
             std::string::npos);
 }
 

@@ -99,7 +99,7 @@ TEST_F(BagTest, TheTruthCanBeChosen) {
   EXPECT_FALSE(readAll(poses).truth_poses.empty());
   EXPECT_TRUE(BagReader(bag_.path(), {}, "gps/fix").truthIsGeodetic());
   EXPECT_NE(complaint({}, "truth/nowhere").find("has no topic 'truth/nowhere' for the truth"), std::string::npos);
-  EXPECT_NE(complaint({}, "joint_states").find("is of type sensor_msgs/JointState, which is no truth"),
+  EXPECT_NE(complaint({}, "joint_states").find("is of type sensor_msgs/JointState, which is not a truth type"),
             std::string::npos);
 }
 

@@ -19,7 +19,7 @@ TEST(ImuInput, takesTheFirstOfTwoSensors) {
   EXPECT_FALSE(input.take(message("rear_imu")));
   EXPECT_EQ(
       input.problem(),
-      "imu/data comes from two sensors: frame_id 'front_imu' is used, 'rear_imu' is left out; give each driver its "
+      "imu/data comes from two sensors: frame_id 'front_imu' is used, 'rear_imu' is ignored; give each driver its "
       "own topic, or set frames.imu");
   EXPECT_TRUE(input.take(message("/front_imu")));
   EXPECT_EQ(input.problem(), "");

@@ -35,7 +35,7 @@ class EnduranceWatchTest : public ::testing::Test {
   }
   ~EnduranceWatchTest() override { std::filesystem::remove_all(folder_); }
 
-  /// @return how long it went on, at most `longest_s`
+  /// @return how long it lasted, at most `longest_s`
   double drive(double longest_s) {
     const Nanoseconds begin = stamp_;
     while (!watch_->hasSeenEnough() && toSeconds(stamp_ - begin) < longest_s) {

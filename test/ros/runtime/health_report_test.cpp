@@ -65,32 +65,32 @@ diagnostic_msgs::DiagnosticArray said(const std::string& name, int level, const 
 TEST(FitToDrive, SumsUpTheWorstFirst) {
   FitToDrive fit("/");
   EXPECT_EQ(fit.verdict(0.0).level, DiagnosticStatus::WARN);
-  fit.take(said("manager: /ins", DiagnosticStatus::OK, "mechanising"), 0.0);
+  fit.take(said("manager: /ins", DiagnosticStatus::OK, "mechanizing"), 0.0);
   fit.take(said("manager: /filter", DiagnosticStatus::OK, "running"), 0.0);
   EXPECT_EQ(fit.verdict(1.0).level, DiagnosticStatus::OK);
   EXPECT_EQ(fit.verdict(1.0).message, "fit to drive");
   fit.take(said("manager: /filter", DiagnosticStatus::WARN, "IMU gap"), 1.0);
   EXPECT_EQ(fit.verdict(1.0).level, DiagnosticStatus::WARN);
   EXPECT_EQ(fit.verdict(1.0).message, "fit to drive with limits: filter: IMU gap");
-  fit.take(said("manager: /forecast", DiagnosticStatus::STALE, "no estimates any more"), 1.0);
+  fit.take(said("manager: /forecast", DiagnosticStatus::STALE, "estimates have stopped"), 1.0);
   fit.take(said("manager: /ins", DiagnosticStatus::ERROR, "IMU silent"), 1.0);
   EXPECT_EQ(fit.verdict(1.0).level, DiagnosticStatus::ERROR);
   EXPECT_EQ(fit.verdict(1.0).message,
-            "not fit to drive: ins: IMU silent; forecast: no estimates any more; filter: IMU gap");
+            "not fit to drive: ins: IMU silent; forecast: estimates have stopped; filter: IMU gap");
 }
 
 TEST(FitToDrive, ANodeletThatFallsSilentIsAnError) {
   FitToDrive fit("/");
-  fit.take(said("manager: /ins", DiagnosticStatus::OK, "mechanising"), 0.0);
+  fit.take(said("manager: /ins", DiagnosticStatus::OK, "mechanizing"), 0.0);
   EXPECT_EQ(fit.verdict(1.9).level, DiagnosticStatus::OK);
   EXPECT_EQ(fit.verdict(2.1).level, DiagnosticStatus::ERROR);
-  EXPECT_EQ(fit.verdict(2.1).message, "not fit to drive: ins says nothing any more");
+  EXPECT_EQ(fit.verdict(2.1).message, "not fit to drive: ins has stopped reporting");
 }
 
 TEST(FitToDrive, OthersDoNotCount) {
   FitToDrive fit("/a");
   EXPECT_EQ(fit.name(), "/a/fit to drive");
-  fit.take(said("manager: /a/ins", DiagnosticStatus::OK, "mechanising"), 0.0);
+  fit.take(said("manager: /a/ins", DiagnosticStatus::OK, "mechanizing"), 0.0);
   fit.take(said("manager: /b/ins", DiagnosticStatus::ERROR, "another rover"), 0.0);
   fit.take(said("manager: /a/camera", DiagnosticStatus::ERROR, "not of this package", "none"), 0.0);
   fit.take(said("manager: /a/fit to drive", DiagnosticStatus::ERROR, "itself"), 0.0);

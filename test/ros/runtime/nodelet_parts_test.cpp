@@ -160,7 +160,7 @@ TEST(ContinuousWheels, WaitForTheStepOfTheClockToBeTold) {
   ASSERT_EQ(known.size(), 1U);
   EXPECT_EQ(known.front().stamp, 100 * kSecond + 1);
   EXPECT_EQ(wheels.push(wheelsAt(96 * kSecond)).front().stamp, 101 * kSecond + 1);
-  EXPECT_EQ(wheels.push(wheelsAt(3 * kSecond)).front().stamp, 3 * kSecond);  // a clock that has begun again
+  EXPECT_EQ(wheels.push(wheelsAt(3 * kSecond)).front().stamp, 3 * kSecond);  // a clock that has restarted
 }
 
 TEST(ContinuousWheels, DoNotWaitForAMechanisationThatHasForgottenIt) {

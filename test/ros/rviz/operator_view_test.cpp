@@ -90,7 +90,7 @@ TEST_F(OperatorViewTest, TheWorstAlarmComesFirstAndSilenceIsOne) {
   array.status[0].level = diagnostic_msgs::DiagnosticStatus::WARN;
   array.status[0].message = "wheels silent";
   array.status[1].name = "ins: /ins";
-  array.status[1].message = "mechanising";
+  array.status[1].message = "mechanizing";
   array.status[2].name = "stop_supervisor: /stop_supervisor";
   array.status[2].level = diagnostic_msgs::DiagnosticStatus::ERROR;
   array.status[2].message = "emergency stop without effect";
@@ -100,7 +100,7 @@ TEST_F(OperatorViewTest, TheWorstAlarmComesFirstAndSilenceIsOne) {
   EXPECT_EQ(picture.alarms[0].words, "stop_supervisor: emergency stop without effect");
   EXPECT_EQ(picture.alarms[1].words, "filter: wheels silent");
   EXPECT_EQ(view_.picture(9.0).alarms.size(), 3U);
-  EXPECT_EQ(view_.picture(9.0).alarms[1].words, "ins: says nothing any more");
+  EXPECT_EQ(view_.picture(9.0).alarms[1].words, "ins: has stopped reporting");
 }
 
 TEST_F(OperatorViewTest, FiguresOfTheDriveGoWithTheirSource) {

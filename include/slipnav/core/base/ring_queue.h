@@ -1,5 +1,5 @@
 #pragma once
-/// First-in first-out queue in one block of memory that only grows: nothing is allocated once it has its size.
+/// First-in first-out queue in one block of memory that only grows: no allocation once it has reached its size.
 
 #include <cstddef>
 #include <utility>

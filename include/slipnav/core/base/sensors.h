@@ -1,5 +1,5 @@
 #pragma once
-/// What the sensors say, in core units and axes. ROS messages, recordings and the simulator all become these.
+/// Sensor samples in core units and axes. ROS messages, recordings and the simulator are all converted to these.
 ///
 /// Body axes b are forward-right-down (FRD) of the vehicle; see doc/conventions.md.
 
@@ -23,14 +23,14 @@ struct ImuSample {
 /// Upper limit for the number of driven wheels of a vehicle; fixed so that samples need no heap.
 inline constexpr std::size_t kMaxWheels = 12;
 
-/// Mean wheel motion over the interval that ends at `stamp`. Wheels stand in the order of the configuration.
+/// Mean wheel motion over the interval that ends at `stamp`. Wheels are in the order of the configuration.
 struct WheelSample {
   Nanoseconds stamp = 0;
   std::size_t count = 0;                           ///< number of wheels filled in below
   std::array<double, kMaxWheels> rate_radps = {};  ///< angular rate, positive when rolling forward [rad/s]
 };
 
-/// Mean forward speed over the interval that ends at `stamp`, from a robot that publishes nothing finer.
+/// Mean forward speed over the interval that ends at `stamp`, from a robot that publishes only that.
 struct SpeedSample {
   Nanoseconds stamp = 0;
   double forward_mps = 0.0;
@@ -45,7 +45,7 @@ struct GnssFix {
   Matrix3 covariance_ned_m2 = Matrix3::Identity();
 };
 
-/// Of whichever sample it is.
+/// Stamp of any kind of sample.
 template <class... Samples>
 Nanoseconds stampOf(const std::variant<Samples...>& sample) {
   return std::visit([](const auto& s) { return s.stamp; }, sample);

@@ -1,7 +1,7 @@
 #pragma once
 /// Basic types, time and unit conversion shared by the whole core.
 ///
-/// Inside the core everything is SI and radians; a name carries a suffix (`_deg`, `_deg_per_h`) where it is not.
+/// Inside the core everything is SI and radians; names in other units carry a suffix (`_deg`, `_deg_per_h`).
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -19,7 +19,7 @@ using Quaternion = Eigen::Quaterniond;
 using Nanoseconds = std::int64_t;
 
 inline constexpr Nanoseconds kSecond = 1'000'000'000;
-/// Stamps of one source that go back by this much mean that it has started anew.
+/// Stamps of one source that go back by this much mean that it has restarted.
 inline constexpr Nanoseconds kRestartBackstep = kSecond;
 
 inline constexpr double kPi = 3.14159265358979323846;

@@ -39,7 +39,7 @@ class Planet {
   /// Planet rotation w.r.t. inertial space in north-east-down axes [rad/s], Groves (2.123).
   Vector3 omega_ie_n(double latitude_rad) const;
   /// Rotation of the local north-east-down frame over the ellipsoid [rad/s], Groves (5.44).
-  /// Undefined at the poles, where north has no direction.
+  /// Undefined at the poles, where north is undefined.
   Vector3 omega_en_n(const Geodetic& position, const Vector3& v_eb_n) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Linearised propagation of the error state through one strapdown step (Groves 14.2.4, position in metres).
+/// Linearized propagation of the error state through one strapdown step (Groves 14.2.4, position in meters).
 
 #include "slipnav/core/ekf/error_state.h"
 #include "slipnav/core/ekf/stationary_detector.h"
@@ -38,7 +38,7 @@ struct VehicleModelParams {
   void visit(ParameterVisitor& v);
 };
 
-/// Discrete transition of one step. Only the navigation rows are dense: biases and vehicle states decay on their own.
+/// Discrete transition of one step. Only the navigation rows are dense: biases and vehicle states decay independently.
 struct ErrorTransition {
   Eigen::Matrix<double, 9, kNavStates> nav;  ///< attitude, velocity, position rows against all navigation states
   Vector3 attitude_from_yaw_scale;           ///< column of kYawScale in the attitude rows
@@ -50,7 +50,7 @@ struct ErrorTransition {
   ErrorCovariance matrix() const;
 };
 
-/// What the wheels have rolled over in a step, as variances of the slip states in steady state.
+/// The ground covered in a step, as steady-state variances of the slip states.
 struct GroundStep {
   double way_m = 0.0;  ///< of the wheels' surface
   double slow_slip_variance = 0.0;
@@ -63,33 +63,33 @@ class ErrorDynamics {
  public:
   ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, const VehicleModelParams& vehicle);
 
-  /// F of the navigation rows, continuous time: d/dt δx = F δx (Groves 14.63 with errors of the biases counted as
+  /// F of the navigation rows, continuous time: d/dt δx = F δx (Groves 14.63 with bias errors defined as
   /// estimate − truth, hence −C in the bias columns).
-  /// @param middle state half-way through the step
-  /// @param f_ib_b bias-free mean specific force of the step [m/s²]
+  /// @param middle state at mid-step
+  /// @param f_ib_b bias-corrected mean specific force of the step [m/s²]
   Eigen::Matrix<double, 9, kNavStates> systemMatrix(const NavigationState& middle, const Vector3& f_ib_b) const;
 
-  /// Φ to second order and the noise of a step of `duration_s`, linearised at its middle.
+  /// Φ to second order and the noise of a step of `duration_s`, linearized at its middle.
   ErrorTransition transition(const NavigationState& start, const NavigationState& end, const Vector3& f_ib_b,
                              const Vector3& omega_ib_b, double duration_s) const;
 
-  /// Lets the slip states fade and change over the way of a step: a Gauss–Markov process of variance σ² and length L
-  /// decays by exp(−w/L) over a way w and keeps σ². Slip belongs to the ground: a rover at rest keeps it.
+  /// Propagates the slip states over the distance of a step: a Gauss–Markov process of variance σ² and length L
+  /// decays by exp(−w/L) over a distance w and keeps σ². Slip belongs to the ground: a rover at rest keeps it.
   void rollOver(const GroundStep& ground, ErrorTransition& transition) const;
 
-  /// Steady-state variances of slow, fast and side slip by the parameters.
+  /// Configured steady-state variances of slow, fast and side slip.
   GroundStep ground() const;
 
   /// P ← Φ (P + ½Q_cΔt) Φᵀ + ½Q_cΔt, second order in the step (Groves 14.80).
   static void propagate(const ErrorTransition& transition, ErrorCovariance& P);
 
-  /// Lets the estimates of Gauss–Markov states fade as the transition says.
+  /// Applies the decay of the transition to the estimates of Gauss–Markov states.
   static void decay(const ErrorTransition& transition, VehicleState& vehicle);
 
   /// Density of the gyros' white noise [rad²/s].
   double gyroNoiseDensity() const { return spectral_density_(kAttitude); }
 
-  /// Steady-state variances of everything beyond attitude, velocity and position before anything is known.
+  /// Prior variances of everything beyond attitude, velocity and position.
   ErrorVector priorVariance() const { return prior_variance_; }
 
  private:

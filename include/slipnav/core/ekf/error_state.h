@@ -1,8 +1,8 @@
 #pragma once
-/// Layout of the error state and how an estimated error is taken out of the total state.
+/// Layout of the error state and how an estimated error is removed from the total state.
 ///
-/// One sign for the whole code: error = estimate − truth. The attitude error δψ is the small rotation, resolved in
-/// north-east-down, with C_b_to_n(estimate) = (I + [δψ×]) C_b_to_n(truth); position error is in metres.
+/// One sign convention everywhere: error = estimate − truth. The attitude error δψ is the small rotation, resolved in
+/// north-east-down, with C_b_to_n(estimate) = (I + [δψ×]) C_b_to_n(truth); position error is in meters.
 
 #include "slipnav/core/base/types.h"
 #include "slipnav/core/earth/planet.h"
@@ -32,7 +32,7 @@ using ErrorVector = Eigen::Matrix<double, kErrorStates, 1>;
 using ErrorCovariance = Eigen::Matrix<double, kErrorStates, kErrorStates>;
 using NavCovariance = Eigen::Matrix<double, kNavStates, kNavStates>;
 
-/// Estimates of what stands behind the fifteen navigation states: the vehicle and its ground.
+/// Estimates beyond the fifteen navigation states: the vehicle and its ground.
 struct VehicleState {
   double wheel_scale = 0.0;
   double slow_slip = 0.0;
@@ -42,34 +42,34 @@ struct VehicleState {
   double mount_yaw_rad = 0.0;
 };
 
-/// Takes an estimated error out of the navigation state: truth = estimate − error.
+/// Removes an estimated error from the navigation state: truth = estimate − error.
 void subtractError(const Planet& planet, const ErrorVector& error, NavigationState& state);
 void subtractError(const ErrorVector& error, VehicleState& state);
 
-/// ∂(error about the corrected state)/∂(error that was left about the one before). Other errors stay as they are.
+/// ∂(error about the corrected state)/∂(remaining error about the previous one). Other errors are unaffected.
 struct ErrorReset {
   Eigen::Matrix<double, 9, 9> nav = Eigen::Matrix<double, 9, 9>::Identity();  ///< attitude, velocity, position
   Matrix3 accel_bias = Matrix3::Identity();                                   ///< a rotation
 };
 
-/// Takes an error out that may be large, as after a gap of the IMU: what is linear is not δv but the velocity error as
-/// it is when the attitude error is taken out first, ξ = v̂ − R v with R = exp[δψ×], of which the velocity in body axes
+/// Removes an error that may be large, as after an IMU gap: the linear quantity is not δv but the velocity error
+/// after the attitude error has been removed, ξ = v̂ − R v with R = exp[δψ×], of which the body-frame velocity
 /// is an exactly linear function (the right-invariant error: A. Barrau, S. Bonnabel, The invariant extended Kalman
-/// filter as a stable observer, IEEE TAC 62(4), 2017). The reset keeps what is known in those terms while the point of
-/// linearisation moves; without it the filter believes to learn its heading, which nothing observes. It leaves out the
-/// turn of δψ by half the correction: a heading that is not known does not change what is known of the tilt.
+/// filter as a stable observer, IEEE TAC 62(4), 2017). The reset keeps the information in those terms while the point
+/// of linearization moves; without it the filter would believe it learns its heading, which nothing observes. It omits
+/// the rotation of δψ by half the correction: an unknown heading does not change what is known of the tilt.
 ///
-/// An accelerometer at rest knows the size of gravity, not its direction: of the bias it sees the part along the
-/// specific force, and the rest is one with the tilt. When the bias is corrected across that direction the direction
-/// turns with it, along the sphere |f̃ − b| = g, and what is known must turn too (the biases' error in the frame that
-/// the group acts in: A. Barrau, S. Bonnabel, The geometry of navigation problems, IEEE TAC 68(2), 2023). Left where it
-/// was, the filter would see the bias from a second side and believe to know all of it.
+/// An accelerometer at rest observes the magnitude of gravity, not its direction: of the bias it sees the component
+/// along the specific force, and the rest cannot be separated from the tilt. When the bias is corrected across that
+/// direction, the direction rotates along the sphere |f̃ − b| = g, and the information must rotate too (the bias error
+/// in the frame that the group acts in: A. Barrau, S. Bonnabel, The geometry of navigation problems, IEEE TAC 68(2),
+/// 2023). Otherwise the filter would see the bias from a second direction and believe it knows all of it.
 ErrorReset correct(const Planet& planet, const ErrorVector& error, NavigationState& state);
 
-/// P after the state has been corrected.
+/// Carries P over to the corrected state.
 void applyReset(const ErrorReset& reset, ErrorCovariance& P);
 
-/// Makes one error unknown by `variance` and independent of all others.
+/// Resets one error to `variance`, independent of all others.
 void forgetError(int index, double variance, ErrorCovariance& P);
 
 /// Position error [m], north-east-down, of `estimate` against `truth` (small differences).

@@ -9,7 +9,7 @@ namespace slipnav {
 
 inline constexpr int kMaxMeasurementRows = 6;
 
-/// A linearised measurement. The prediction comes from the estimate, and error = estimate − truth, hence
+/// A linearized measurement. The prediction comes from the estimate, and error = estimate − truth, hence
 /// residual = measured − predicted = −H · error + noise.
 struct Measurement {
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxMeasurementRows, 1>;
@@ -25,17 +25,17 @@ struct Measurement {
 };
 
 /// rᵀ (H P Hᵀ + R)⁻¹ r, chi-square distributed with as many degrees of freedom as rows when the filter is consistent.
-/// Nothing when the residual is not finite or the innovation covariance not positive definite.
+/// Nothing if the residual is not finite or the innovation covariance not positive definite.
 std::optional<double> normalisedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P);
 
-/// An innovation r by its own covariance S = H P Hᵀ + R.
+/// An innovation r relative to its own covariance S = H P Hᵀ + R.
 struct InnovationSize {
   int rows = 0;
   double squared = 0.0;          ///< rᵀ S⁻¹ r
   double log_determinant = 0.0;  ///< ln |S|, in the units of the measurement squared
 };
 
-/// Nothing where normalisedInnovationSquared() has nothing.
+/// Nothing where normalisedInnovationSquared() returns nothing.
 std::optional<InnovationSize> innovationSize(const Measurement& measurement, const ErrorCovariance& P);
 
 using KalmanGain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kErrorStates, kMaxMeasurementRows>;
@@ -44,18 +44,18 @@ using KalmanGain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kError
 using InnovationCovariance =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxMeasurementRows, kMaxMeasurementRows>;
 
-/// Updates P and returns the gain P Hᵀ (H P Hᵀ + R)⁻¹ that did it. Nothing, and P untouched, when the residual is not
+/// Updates P and returns the gain P Hᵀ (H P Hᵀ + R)⁻¹ that was used. Nothing, and P unchanged, if the residual is not
 /// finite or the innovation covariance not positive definite.
 ///
 /// The gain of the consider state kYawScale is zero; the Joseph form holds for any gain.
 std::optional<KalmanGain> updateCovariance(const Measurement& measurement, ErrorCovariance& P);
 
-/// As updateCovariance(), but returns the estimated error, to be taken out of the state.
+/// As updateCovariance(), but returns the estimated error, to be removed from the state.
 std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P);
 
-/// Opens P along its own correlations until `measurement`, which has contradicted for long, is as plausible as one of
-/// its normalised innovation squared should be: P ← P + (α−1) P Hᵀ S⁻¹ H P with α = rᵀS⁻¹r / n. What contradicts
-/// for long is the state. Does nothing where the innovation is plausible already.
+/// Inflates P along its own correlations until `measurement`, which has contradicted for long, has a plausible
+/// normalized innovation squared: P ← P + (α−1) P Hᵀ S⁻¹ H P with α = rᵀS⁻¹r / n. A contradiction that lasts
+/// means the state is wrong. Does nothing if the innovation is already plausible.
 void openCovariance(const Measurement& measurement, ErrorCovariance& P);
 
 /// P Hᵀ: covariance of the state's errors with those of the measurement's prediction.

@@ -1,11 +1,11 @@
 #pragma once
-/// Runs a Kalman filter's errors backwards: what each epoch is known to have been once all measurements are in (H. E.
+/// Runs a Kalman filter's errors backwards: the best estimate of each epoch given all measurements (H. E.
 /// Rauch, F. Tung, C. T. Striebel, Maximum likelihood estimates of linear dynamic systems, AIAA Journal 3(8), 1965;
 /// Groves 3.4.3; S. Särkkä, Bayesian Filtering and Smoothing, 2013, chapter 8).
 ///
 /// Everything is an error about the filter's own estimate, so that closed loop and resets are part of the chain. From
-/// one point of the chain to the next the way back is an affine map, and maps compose: epochs are kept as seldom as one
-/// likes, and what lies between them is exact.
+/// one point of the chain back to the previous one is an affine map, and maps compose: epochs can be kept as rarely as
+/// desired, and the result is still exact.
 
 #include <deque>
 #include <vector>
@@ -15,36 +15,36 @@
 
 namespace slipnav {
 
-/// What all measurements together say of the error that the filter's estimate had at one epoch.
+/// What all measurements together say about the error of the filter's estimate at one epoch.
 struct SmoothedError {
-  ErrorVector error = ErrorVector::Zero();          ///< to be taken out of the filter's estimate
-  ErrorCovariance P = ErrorCovariance::Identity();  ///< of what is left, in the filter's own tangent
+  ErrorVector error = ErrorVector::Zero();          ///< to be removed from the filter's estimate
+  ErrorCovariance P = ErrorCovariance::Identity();  ///< of the remaining error, in the filter's own tangent
 };
 
-/// Told what the filter does, in order. Allocates one link per kept epoch, 8 kB.
+/// Records what the filter does, in order. Allocates one link per kept epoch, 8 kB.
 class RtsSmoother {
  public:
-  /// Begins anew with the covariance of the filter's start.
+  /// Restarts with the covariance of the filter's start.
   void begin(const ErrorCovariance& P);
 
-  /// error ← Φ error + noise. The noise need not be told: it shows in the next covariance.
+  /// error ← Φ error + noise. The noise itself is not needed: it shows in the next covariance.
   void propagate(const ErrorCovariance& phi) { transition_ = (phi * transition_).eval(); }
-  /// One error has become independent of all that was: see forgetError().
+  /// One error has become independent of the past: see forgetError().
   void forget(int index) { transition_.row(index).setZero(); }
   /// The filter's covariance now, before a measurement.
   void advance(const ErrorCovariance& P);
-  /// A measurement was used, right after advance(): `error` was taken out, and `P` is what the filter has since.
+  /// A measurement was used, right after advance(): `error` was removed, and `P` is the filter's covariance since.
   void correct(const ErrorVector& error, const ErrorReset& reset, const ErrorCovariance& P);
-  /// As advance(), and this epoch is one to be smoothed.
+  /// As advance(), and this epoch is to be smoothed.
   void keep(const ErrorCovariance& P);
 
   std::size_t size() const { return links_.size(); }
 
-  /// One for each keep(), in their order; the last one is the filter's own.
+  /// One for each keep(), in order; the last one is the filter's own.
   std::vector<SmoothedError> smooth() const;
 
  private:
-  /// The error at the beginning as an affine function of that at the end, and what the end cannot tell of it.
+  /// The error at the beginning as an affine function of that at the end, and the covariance the end does not explain.
   struct Link {
     ErrorCovariance gain = ErrorCovariance::Identity();
     ErrorVector offset = ErrorVector::Zero();
@@ -55,8 +55,8 @@ class RtsSmoother {
 
   ErrorCovariance P_ = ErrorCovariance::Identity();           ///< at the newest point of the chain
   ErrorCovariance transition_ = ErrorCovariance::Identity();  ///< since then
-  Link open_;                                                 ///< from the epoch kept last to the newest point
-  std::deque<Link> links_;                                    ///< each from the epoch before to the one kept
+  Link open_;                                                 ///< from the last kept epoch to the newest point
+  std::deque<Link> links_;                                    ///< each from one kept epoch to the next
 };
 
 }  // namespace slipnav

@@ -1,10 +1,10 @@
 #pragma once
-/// Is the rover standing still? Encoders and the IMU both have to say so.
+/// Is the rover standing still? Encoders and IMU must both say so.
 ///
-/// The IMU's part after Skog, Händel, Nilsson, Rantakokko (2010): over a window, specific force and angular rate must
+/// The IMU test follows Skog, Händel, Nilsson, Rantakokko (2010): over a window, specific force and angular rate must
 /// not scatter more than at rest, about their own means, so that no bias matters; the means must be gravity and
-/// nothing, within what the sensor's biases may be. How much this rover's IMU scatters at rest and while driving
-/// (engine, fans, vibration) is learned, so that nothing depends on one sensor.
+/// zero, within the sensor's biases. The scatter of this rover's IMU at rest and while driving
+/// (engine, fans, vibration) is learned, so that nothing depends on a particular sensor.
 
 #include <cstddef>
 #include <vector>
@@ -24,7 +24,7 @@ struct StationaryParams {
   void visit(ParameterVisitor& v);
 };
 
-/// What the data sheet says of the sensor, in SI units.
+/// The sensor's data sheet in SI units.
 struct ImuFloor {
   double accel_density = 0.0;   ///< [m²/s³]
   double gyro_density = 0.0;    ///< [rad²/s]
@@ -32,7 +32,7 @@ struct ImuFloor {
   double gyro_bias_std = 0.0;   ///< [rad/s]
 };
 
-/// Keeps the IMU steps of the test window, since when the wheels have been at rest, and what rest and driving look
+/// Keeps the IMU steps of the test window, the time since the wheels came to rest, and what rest and driving look
 /// like.
 class StationaryDetector {
  public:
@@ -48,20 +48,20 @@ class StationaryDetector {
   void addImu(Nanoseconds stamp, const Vector3& f_ib_b, const Vector3& omega_ib_b);
 
   /// Largest circumferential speed of any wheel over the interval that ends at `stamp`.
-  /// @param noise_std_mps 1σ of that speed as far as it has been learned
+  /// @param noise_std_mps learned 1σ of that speed
   void addWheels(Nanoseconds stamp, double largest_speed_mps, double noise_std_mps = 0.0);
 
   /// True when wheels and IMU have agreed on rest for the hold-off time, as of the last wheel sample. Learns from it.
   /// @param gravity_mps2 magnitude of the local gravity
-  /// @param drives whether wheels that turn drive the rover; what it feels while they spin is not how driving feels
+  /// @param drives whether turning wheels drive the rover; spinning in place does not show what driving feels like
   bool judge(double gravity_mps2, bool drives = true);
 
   bool wheelsAtRest() const { return wheels_at_rest_; }
 
-  /// Whether specific force and rate are those of rest in the mean, whatever the wheels say.
+  /// Whether the means of specific force and rate are those of rest, whatever the wheels say.
   bool hasLevelOfRest(double gravity_mps2) const;
   /// Whether the IMU is clearly calmer now than in the last seconds of driving.
-  /// @param was whether it has been so: then it takes less to stay so
+  /// @param was whether it was so before: staying so takes less
   bool isCalmerThanDriving(bool was) const;
 
   /// Means over the window; only after a sample.
@@ -82,7 +82,7 @@ class StationaryDetector {
     Vector3 omega_ib_b;
   };
 
-  /// Scatter per axis of both triads, and over how much time it is the mean.
+  /// Scatter per axis of both triads, and the time it is averaged over.
   struct Level {
     double accel_variance = 0.0;
     double gyro_variance = 0.0;

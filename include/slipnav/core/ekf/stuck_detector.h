@@ -1,31 +1,31 @@
 #pragma once
 /// A rover that stands while its wheels turn: dug in, or lifted off the ground by a stone.
 ///
-/// Neither sensor can tell alone: to an IMU a smooth floor looks like rest, and wheels that spin look like a drive.
-/// Here all have to agree: the IMU is clearly calmer than it was while driving, its means are those of rest, and the
-/// estimate itself holds that the wheels have lost most of their way.
+/// Neither sensor can tell alone: to an IMU a smooth floor looks like rest, and spinning wheels look like a drive.
+/// All must agree: the IMU is clearly calmer than while driving, its means are those of rest, and
+/// by the estimate the wheels have lost most of their travel.
 
 #include "slipnav/core/base/types.h"
 
 namespace slipnav {
 
-/// What is known at the end of a wheel interval.
+/// Evidence at the end of a wheel interval.
 struct SpinEvidence {
   Nanoseconds stamp = 0;
-  bool level_of_rest = false;        ///< specific force and rate are in the mean those of rest
+  bool level_of_rest = false;        ///< the means of specific force and rate are those of rest
   bool calmer_than_driving = false;  ///< driving over this ground shook the IMU clearly more
   double forward_mps = 0.0;          ///< estimate of the forward speed, mean over the interval
   double forward_std_mps = 0.0;
   double wheels_mps = 0.0;  ///< largest circumferential speed of a wheel
 };
 
-/// Stuck once all of it has held for a second, until the IMU is no longer at rest or no longer calm.
+/// Stuck once everything has held for a second, until the IMU is no longer at rest or no longer calm.
 class StuckDetector {
  public:
   void reset() { *this = StuckDetector(); }
   bool judge(const SpinEvidence& evidence);
   bool isStuck() const { return stuck_; }
-  /// Whether it holds, for however short a time.
+  /// Whether it holds, even if only briefly so far.
   bool isSuspected() const { return since_ != 0; }
 
  private:

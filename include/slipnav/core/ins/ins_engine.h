@@ -1,6 +1,6 @@
 #pragma once
-/// Keeps the nominal state: checks and buffers IMU samples, mechanises them one by one, and goes back to where a
-/// correction belongs. Every result depends on the stamps and values of the samples alone.
+/// Keeps the nominal state: checks and buffers IMU samples, mechanizes them one by one, and rewinds to the step
+/// a correction belongs to. Every result depends only on the stamps and values of the samples.
 
 #include <cstdint>
 #include <optional>
@@ -12,18 +12,18 @@
 
 namespace slipnav {
 
-/// A gap that is longer is none that a vehicle drives through: a clock has been set, or a computer was asleep. The
-/// vehicle counts as having stood for all of it, and its covariance grows as in one of this length [s].
+/// A longer gap is not driving time: a clock has been set, or a computer was asleep. The
+/// vehicle is assumed to have stood still for all of it, and its covariance grows as over this length [s].
 inline constexpr double kLongestGap_s = 60.0;
 
-/// One mechanised IMU interval.
+/// One mechanized IMU interval.
 struct InsStep {
   std::uint64_t sequence = 0;  ///< counts IMU intervals since the initial state
   std::uint32_t epoch = 0;     ///< counts corrections; a step of an older epoch is void
   Nanoseconds start = 0;
   NavigationState state;                 ///< at the end of the interval
-  Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean over the interval [m/s²]
-  Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean over the interval [rad/s]
+  Vector3 f_ib_b = Vector3::Zero();      ///< bias-corrected mean over the interval [m/s²]
+  Vector3 omega_ib_b = Vector3::Zero();  ///< bias-corrected mean over the interval [rad/s]
   double gap_s = 0.0;                    ///< time without samples inside the interval
 };
 
@@ -34,7 +34,7 @@ struct Correction {
   NavigationState state;
 };
 
-/// A ring of intervals, and the state at the end of each that is mechanised.
+/// A ring of intervals, with the state at the end of each mechanized one.
 class InsEngine {
  public:
   InsEngine(const Planet& planet, const ImuInputParams& params);
@@ -42,23 +42,23 @@ class InsEngine {
   /// Drops everything, the initial state and the samples.
   void reset();
 
-  /// Starts mechanising from `state`; samples up to its stamp are dropped, later ones that are buffered are used.
+  /// Starts mechanizing from `state`; samples up to its stamp are dropped, later buffered ones are used.
   void initialise(const NavigationState& state);
   bool isInitialised() const { return initialised_; }
-  /// Ends mechanising; samples are buffered for the next initial state.
+  /// Stops mechanizing; samples are buffered for the next initial state.
   void release() { initialised_ = false; }
 
   /// Checks and buffers a sample.
   ImuVerdict push(const ImuSample& sample);
 
-  /// Mechanises the next buffered interval; nothing when all are done or no initial state is known.
+  /// Mechanizes the next buffered interval; nothing if all are done or there is no initial state.
   std::optional<InsStep> step();
 
-  /// Goes back to the step the correction is for; step() then mechanises again what followed it.
-  /// @return false when that step is no longer, or not yet, there
+  /// Rewinds to the step the correction is for; step() then mechanizes the later ones again.
+  /// @return false if that step is no longer, or not yet, buffered
   bool correct(const Correction& correction);
 
-  /// Goes on from a correction without the steps up to it, which another engine has made: what lies between its state
+  /// Resumes from a correction without the steps before it, which another engine has made: the time between its state
   /// and the first sample is a gap.
   void adopt(const Correction& correction);
 
@@ -73,11 +73,11 @@ class InsEngine {
     Nanoseconds end;
     ImuInterval interval;
     double gap_s;
-    NavigationState state;  ///< at the end, once mechanised
+    NavigationState state;  ///< at the end, once mechanized
   };
 
   Slot& slot(std::uint64_t sequence) { return ring_[sequence & (ring_.size() - 1)]; }
-  /// What an IMU measures while the vehicle turns about the vertical as in `interval`, and all else stays as it is.
+  /// What an IMU measures if the vehicle keeps turning about the vertical as in `interval`, with all else constant.
   ImuInterval steadyTurn(const NavigationState& state, const ImuInterval& interval) const;
   void append(const Slot& slot);
   void makeRoom();
@@ -90,10 +90,10 @@ class InsEngine {
   double max_bridged_gap_s_;
   std::vector<Slot> ring_;   ///< power of two in size; holds [first_, end_)
   std::uint64_t first_ = 0;  ///< oldest buffered sequence
-  std::uint64_t next_ = 0;   ///< next to be mechanised
+  std::uint64_t next_ = 0;   ///< next to be mechanized
   std::uint64_t end_ = 0;    ///< one past the newest buffered
-  std::uint64_t begin_ = 0;  ///< ring sequence of the step that begins at `initial_`
-  std::uint64_t base_ = 0;   ///< ring sequence that counts as step 0; where that was made elsewhere, below 0, wrapped
+  std::uint64_t begin_ = 0;  ///< ring sequence of the step that starts at `initial_`
+  std::uint64_t base_ = 0;   ///< ring sequence counted as step 0; below 0, wrapped, if that was made elsewhere
   std::uint32_t epoch_ = 0;
   bool initialised_ = false;
   NavigationState initial_;

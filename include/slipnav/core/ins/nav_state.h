@@ -1,5 +1,5 @@
 #pragma once
-/// The total state that the inertial navigation carries, resolved in the local navigation frame (Groves 5.4).
+/// The total state carried by the inertial navigation, resolved in the local navigation frame (Groves 5.4).
 
 #include "slipnav/core/base/types.h"
 #include "slipnav/core/earth/planet.h"
@@ -16,7 +16,7 @@ struct NavigationState {
   Vector3 gyro_bias_b = Vector3::Zero();         ///< subtracted from the measured angular rate [rad/s]
 };
 
-/// True when no number of the state is NaN or infinite.
+/// True if no number of the state is NaN or infinite.
 bool isFinite(const NavigationState& state);
 
 }  // namespace slipnav

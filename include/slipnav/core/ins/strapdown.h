@@ -1,5 +1,5 @@
 #pragma once
-/// Strapdown mechanisation in the local navigation frame (Groves 5.4 and 5.5; Savage 1998 for coning and sculling).
+/// Strapdown mechanization in the local navigation frame (Groves 5.4 and 5.5; Savage 1998 for coning and sculling).
 
 #include "slipnav/core/base/types.h"
 #include "slipnav/core/earth/planet.h"
@@ -14,7 +14,7 @@ struct ImuInterval {
   double duration_s = 0.0;               ///< 0: there is no such interval
 };
 
-/// One step of the mechanisation. Without a state of its own.
+/// One step of the mechanization. Stateless.
 class Strapdown {
  public:
   explicit Strapdown(const Planet& planet) : planet_(planet) {}
@@ -22,8 +22,8 @@ class Strapdown {
   /// State at the end of `current` from the state at its start.
   ///
   /// Second order in the interval: the specific force is resolved along the turning body axes, coning and sculling are
-  /// taken from the change between the previous and the current interval (both of any length), gravity, Coriolis and
-  /// frame rotation are evaluated half-way. `previous` may have zero duration, then rates count as constant.
+  /// computed from the change between the previous and the current interval (both of any length), gravity, Coriolis and
+  /// frame rotation are evaluated at mid-interval. `previous` may have zero duration; then rates count as constant.
   /// @param stamp epoch of the returned state
   NavigationState propagate(const NavigationState& state, const ImuInterval& previous, const ImuInterval& current,
                             Nanoseconds stamp) const;

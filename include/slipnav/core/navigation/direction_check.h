@@ -1,9 +1,9 @@
 #pragma once
-/// Do wheels and IMU agree on which way the rover starts to drive?
+/// Do wheels and IMU agree on the direction in which the rover starts to drive?
 ///
-/// At each start from rest the velocity is integrated from the specific force for a moment, free of what the IMU said
-/// at rest before (gravity, biases) and turned back by the gyros. Against the wheels' speed then it tells forward from
-/// backward, whatever the slip: wheels that spin give a ratio between 0 and 1, never below 0.
+/// At each start from rest the velocity is integrated from the specific force for a moment, with the IMU means
+/// at rest (gravity, biases) removed and rotated back by the gyros. Compared with the wheel speed it tells forward from
+/// backward, whatever the slip: spinning wheels give a ratio between 0 and 1, never below 0.
 
 #include <deque>
 
@@ -21,9 +21,9 @@ class DirectionCheck {
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
 
-  /// The newest start was in opposite directions.
+  /// The last start was in opposite directions.
   bool contradicts() const { return contradicts_; }
-  /// The wheels have had a negative speed at some time: their speed has a sign.
+  /// The wheels have reported a negative speed at some time: their speed has a sign.
   bool hasSign() const { return has_sign_; }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// What is wrong with the sensors or the filter, by name: one wording for diagnostics, logs and the fault campaign.
+/// Problems of sensors and filter, by name: the same wording for diagnostics, logs and the fault campaign.
 
 #include <array>
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace slipnav {
 
-/// When something was wrong, in stamps.
+/// When a problem was present, in stamps.
 struct Alarm {
   Nanoseconds first = 0;
   Nanoseconds last = 0;
@@ -22,31 +22,31 @@ struct Alarm {
 
 using Alarms = std::map<std::string, Alarm>;
 
-/// Keeps an alarm for each thing that has been wrong.
+/// Keeps an alarm for each problem seen.
 class HealthMonitor {
  public:
-  /// @param setup names the wheels and says how long they may be silent
+  /// @param setup names the wheels and gives how long they may be silent
   explicit HealthMonitor(const FilterSetup& setup);
 
   void noteImu(Nanoseconds stamp, ImuVerdict verdict);
-  /// What is wrong with the stamps of the IMU up to `stamp`.
+  /// Problems with the IMU stamps up to `stamp`.
   void noteStamps(const StampFaults& faults, Nanoseconds stamp);
-  /// The clock was set back by so much.
+  /// The clock was set back by this much.
   void noteSetBack(double step_s, Nanoseconds stamp);
-  /// @param taken whether the filter had use for it
+  /// @param taken whether the filter could use it
   void noteWheels(const WheelMotion& wheels, bool taken);
-  /// Looks at rejected measurements, an estimate that ran away, silent wheels, wheels that contradict the others, and
+  /// Checks for rejected measurements, an estimate that ran away, silent wheels, wheels that contradict the others, and
   /// wheels that turn backwards.
   void noteFilter(const FilterEngine& filter);
-  /// Anything else that is wrong at `stamp`.
+  /// Any other problem at `stamp`.
   void note(const std::string& name, Nanoseconds stamp);
-  /// Something that has a size: one alarm, which says the greatest size so far.
-  /// @param name begins the name of the alarm; @param size in `unit`
+  /// A problem with a magnitude: one alarm, which reports the largest so far.
+  /// @param name start of the alarm's name; @param size in `unit`
   void noteSized(const std::string& name, double size, const std::string& unit, Nanoseconds stamp);
   /// The clock has gone back.
   void restart() { newest_wheels_ = against_since_ = 0; }
 
-  /// Everything there has been.
+  /// All alarms so far.
   const Alarms& alarms() const { return alarms_; }
 
  private:
@@ -56,12 +56,12 @@ class HealthMonitor {
 
   double max_wheel_interval_s_;
   std::vector<std::string> wheel_names_;
-  std::array<std::uint64_t, kComponents> rejected_ = {};  ///< when the filter was looked at last
+  std::array<std::uint64_t, kComponents> rejected_ = {};  ///< at the last check of the filter
   Nanoseconds newest_wheels_ = 0;
-  double wheel_speed_mps_ = 0.0;   ///< forward, by the newest wheel sample
+  double wheel_speed_mps_ = 0.0;   ///< forward, of the newest wheel sample
   Nanoseconds against_since_ = 0;  ///< wheels and vehicle go opposite ways; 0: they do not
-  std::uint64_t recoveries_ = 0;   ///< as of the last look
-  StampFaults stamp_faults_;       ///< as noted last
+  std::uint64_t recoveries_ = 0;   ///< at the last check
+  StampFaults stamp_faults_;       ///< as last noted
   std::map<std::string, double> sizes_;
   Alarms alarms_;
 };

@@ -2,12 +2,12 @@
 /// Finds where to start: levels, finds the heading, and hands over state and covariance at a definite stamp.
 ///
 /// Sources:
-///   gnss    rest (levelling, gyro bias), then a drive under satellite positions that gives the heading; what is
-///   recorded is
-///           run through the filter itself, so that the covariance handed over holds every correlation
-///   given   position and heading from the parameters, levelled from the first seconds
-///   motion  position zero, heading from the parameters, levelled from the first seconds even when moving
-///   truth   pose handed in from outside, levelled likewise
+///   gnss    rest (leveling, gyro bias), then a drive under satellite positions that gives the heading; the
+///           recording is then run through the filter itself, so that the covariance handed over contains
+///           every correlation
+///   given   position and heading from the parameters, leveled from the first seconds
+///   motion  position zero, heading from the parameters, leveled from the first seconds even when moving
+///   truth   pose given from outside, leveled likewise
 
 #include <optional>
 #include <string>
@@ -34,6 +34,7 @@ struct InitializationParams {
   double min_rest_s = 5.0;
   double max_rest_s = 60.0;
   double drive_distance_m = 10.0;
+  double drive_heading_std_deg = 1.0;
   double levelling_window_s = 10.0;
   double moving_level_std_deg = 1.0;
   double moving_speed_std_mps = 0.1;
@@ -49,7 +50,7 @@ class Initializer {
   Initializer(const Planet& planet, const InitializationParams& params, const ImuInputParams& imu,
               const FilterSetup& setup);
 
-  /// Forgets all samples.
+  /// Discards all samples.
   void reset();
 
   /// Samples in order of stamp, of all sensors together.
@@ -57,32 +58,32 @@ class Initializer {
   void push(const WheelMotion& wheels);
   void push(const AntennaFix& fix) { recording_.push(fix); }
 
-  /// The same once there is a start: only complaint() looks on.
+  /// The same once there is a start: only complaint() still looks at it.
   void watch(const ImuSample& sample) { check_.push(sample); }
   void watch(const WheelMotion& wheels) { check_.push(wheels); }
 
-  /// What makes the samples useless, in one line with cause and remedy; "" while nothing does. No start is found then.
+  /// What makes the samples unusable, in one line with cause and remedy; otherwise "". No start is found then.
   const std::string& complaint() const { return check_.complaint().empty() ? clock_complaint_ : check_.complaint(); }
-  /// The state for the source `truth`. Without attitude, it is levelled and takes the configured heading.
+  /// The state for the source `truth`. Without attitude, it is leveled and takes the configured heading.
   void setTruth(const NavigationState& truth, bool has_attitude);
 
-  /// The initial state once it can be known; ask after every sample.
+  /// The initial state once it is known; ask after every sample.
   std::optional<InitialState> result() const;
 
-  /// Takes over gates, noise of measurements and limits of standstill; the rest of the setup has to be the same.
+  /// Replaces gates, measurement noise and standstill limits; the rest of the setup must be the same.
   void retune(const FilterSetup& setup);
 
-  /// Whether satellite positions are needed, and have stopped coming.
+  /// Whether satellite positions are needed, and have stopped arriving.
   bool missesFixes() const;
 
-  /// What it is waiting for, for people.
+  /// What it is waiting for, in words.
   std::string progress() const;
 
  private:
   std::optional<InitialState> fromDrive() const;
   std::optional<InitialState> fromWindow() const;
   std::optional<InitialState> fromTruth() const;
-  /// Up to where a drive is known: stamps of a fix and of the first IMU sample from it on.
+  /// Until when a drive is known: stamps of a fix and of the first IMU sample from it on.
   struct DriveEnd {
     Nanoseconds fix = 0;
     Nanoseconds imu = 0;
@@ -103,8 +104,8 @@ class Initializer {
   ErrorVector prior_variance_;
   StartRecording recording_;
   InputCheck check_;
-  mutable Nanoseconds judged_fix_ = 0;   ///< the drive up to there has been looked at
-  mutable std::string clock_complaint_;  ///< fixes that are stamped by another clock
+  mutable Nanoseconds judged_fix_ = 0;   ///< the drive has been examined up to there
+  mutable std::string clock_complaint_;  ///< about fixes stamped by another clock
   std::optional<NavigationState> truth_;
   bool truth_has_attitude_ = false;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Mechanisation and filter coupled in one thread: what the nodelets do between them, for everything that runs offline.
+/// Mechanization and filter coupled in one thread: the offline counterpart of the nodelets.
 
 #include <memory>
 #include <utility>
@@ -14,19 +14,19 @@ class Navigator {
  public:
   Navigator(const Planet& planet, const ImuInputParams& imu, const FilterSetup& setup);
 
-  /// Samples that are buffered and later than the initial state are used.
+  /// Buffered samples later than the initial state are used.
   void initialise(const InitialState& initial);
   /// See FilterEngine.
   void onInnovation(InnovationSink sink) { filter_.onInnovation(std::move(sink)); }
   void keepHistory(std::shared_ptr<FilterHistory> history) { filter_.keepHistory(std::move(history)); }
   bool isInitialised() const { return filter_.isInitialised(); }
 
-  /// Each takes a sample and works off what has become certain by it.
+  /// Each adds a sample and processes what has become certain by it.
   ImuVerdict push(const ImuSample& sample, const FilterEngine::EstimateSink& sink);
   bool push(const WheelMotion& wheels, const FilterEngine::EstimateSink& sink);
   bool push(const AntennaFix& fix) { return filter_.push(fix); }
 
-  /// Says that nothing up to `stamp` is still to come, and works it off.
+  /// Declares that nothing up to `stamp` is still to come, and processes it.
   void completeUpTo(Nanoseconds stamp, const FilterEngine::EstimateSink& sink);
 
   const FilterEngine& filter() const { return filter_; }

@@ -8,7 +8,7 @@ namespace slipnav {
 
 using Covariance6 = Eigen::Matrix<double, 6, 6>;
 
-/// Pose and twist of base_link as nav_msgs/Odometry wants them.
+/// Pose and twist of base_link as in nav_msgs/Odometry.
 struct Output {
   Nanoseconds stamp = 0;
   Vector3 position_enu_m = Vector3::Zero();
@@ -19,7 +19,7 @@ struct Output {
   Covariance6 twist_covariance = Covariance6::Zero();  ///< velocity, then angular rate, base_link axes
 };
 
-/// The one place where core axes become those of messages. Immutable.
+/// The only place where core axes are converted to those of messages. Immutable.
 class OutputMaker {
  public:
   /// @param lever_imu_to_base_b from the IMU to base_link, body axes [m]

@@ -1,5 +1,5 @@
 #pragma once
-/// From samples in core axes to estimates: initialisation, mechanisation and filter in one object, for offline use.
+/// From samples in core axes to estimates: initialization, mechanization and filter in one object, for offline use.
 
 #include <cstdint>
 #include <memory>
@@ -12,38 +12,38 @@
 
 namespace slipnav {
 
-/// Everything the navigation is made from.
+/// Everything the navigation is configured with.
 struct NavigationSetup {
   ImuInputParams imu_input;
   InitializationParams initialization;
   FilterSetup filter;
 };
 
-/// Samples that came in and what became of them.
+/// Input samples and what became of them.
 struct SampleCounts {
   std::uint64_t imu = 0;
   std::uint64_t wheels = 0;
   std::uint64_t rejected = 0;
   std::uint64_t gaps = 0;
-  std::uint64_t restarts = 0;  ///< times the clock went back and all began anew
+  std::uint64_t restarts = 0;  ///< times the clock went back and everything restarted
 };
 
-/// Takes samples in order of stamp; starts anew when the clock goes back.
+/// Takes samples in order of stamp; restarts when the clock goes back.
 class Pipeline {
  public:
   Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEngine::EstimateSink sink);
 
-  /// Tells `sink` of every innovation of the filter from now on.
+  /// Passes every innovation of the filter to `sink` from now on.
   void onInnovation(const InnovationSink& sink);
 
-  /// What is needed to smooth the drive goes into `history`; before the first sample.
+  /// Records what smoothing needs in `history`; call before the first sample.
   void keepHistory(const std::shared_ptr<FilterHistory>& history);
 
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
-  /// Satellite position or velocity; once the initialisation has ended, positions with `gnss.use: always` alone.
+  /// Satellite position or velocity; after the initialization only positions, and only with `gnss.use: always`.
   void push(const AntennaFix& fix);
-  /// For the initialisation source `truth`.
+  /// For the initialization source `truth`.
   void setTruth(const NavigationState& truth, bool has_attitude);
 
   /// Where the estimate started, once it has.

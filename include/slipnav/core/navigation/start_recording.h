@@ -1,5 +1,5 @@
 #pragma once
-/// What the sensors said while the start is looked for, and the standstill in it.
+/// Sensor samples kept while looking for a start, and the standstill in them.
 
 #include <optional>
 #include <vector>
@@ -17,12 +17,12 @@ struct Rest {
   bool over = false;  ///< the vehicle has moved on
 };
 
-/// Keeps samples from the newest standstill on that was long enough, or the newest ones.
+/// Keeps samples from the newest sufficiently long standstill on, or the newest ones.
 class StartRecording {
  public:
-  /// @param gravity_mps2 about what it is here
-  /// @param min_rest_s a shorter standstill is forgotten; @param max_rest_s of a longer one the end is kept
-  /// @param accel_bias_b, gyro_bias_b what is known of the biases before: a bias is no motion
+  /// @param gravity_mps2 approximate local value
+  /// @param min_rest_s a shorter standstill is discarded; @param max_rest_s the end of a longer one is kept
+  /// @param accel_bias_b, gyro_bias_b prior biases: a bias is not motion
   StartRecording(const StationaryParams& stationary, const ImuFloor& floor, double gravity_mps2, double min_rest_s,
                  double max_rest_s, const Vector3& accel_bias_b = Vector3::Zero(),
                  const Vector3& gyro_bias_b = Vector3::Zero());
@@ -30,7 +30,7 @@ class StartRecording {
   void clear();
   void retune(const StationaryParams& stationary) { detector_.retune(stationary); }
 
-  /// Samples in order of stamp, of all sensors together; one that is not finite or not later is left out.
+  /// Samples in order of stamp, of all sensors together; one that is not finite or not later is dropped.
   void push(const ImuSample& sample);
   void push(const WheelMotion& wheels);
   void push(const AntennaFix& fix);
@@ -44,11 +44,11 @@ class StartRecording {
 
   /// Stamp of the first IMU sample at or after `stamp`.
   std::optional<Nanoseconds> firstImuStampFrom(Nanoseconds stamp) const;
-  /// Likewise, of a sample that another one follows within `window_s`.
+  /// Likewise, of a sample that is followed by another one within `window_s`.
   std::optional<Nanoseconds> windowBeginFrom(Nanoseconds stamp, double window_s) const;
-  /// Mean specific force and rate of the IMU samples later than `begin`, up to `end`; zero without any.
+  /// Mean specific force and rate of the IMU samples later than `begin`, up to `end`; zero if there are none.
   ImuSample mean(Nanoseconds begin, Nanoseconds end) const;
-  /// [m/s] of the wheel sample in whose interval `stamp` lies, or the last one.
+  /// [m/s] of the wheel sample whose interval contains `stamp`, or the last one.
   double speedAt(Nanoseconds stamp) const;
 
  private:
@@ -70,7 +70,7 @@ class StartRecording {
   std::vector<PositionFix> fixes_;
   std::vector<VelocityFix> velocity_fixes_;
   Rest rest_;
-  Rest next_;  ///< a standstill after rest_, not yet long enough to take its place
+  Rest next_;  ///< a standstill after rest_, not yet long enough to replace it
 };
 
 }  // namespace slipnav

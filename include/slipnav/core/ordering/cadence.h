@@ -1,8 +1,8 @@
 #pragma once
-/// How regularly samples of one sensor come, and hence where one is missing, since it may still be on its way, and for
-/// how long after one none is due.
+/// How regularly the samples of one sensor arrive, and hence where one may be missing because it is still on its way,
+/// and for how long after one the next is not due.
 ///
-/// Learned from the samples in the order in which they are processed, so that it depends on stamps alone.
+/// Learned from the samples in the order of processing, so that it depends only on stamps.
 
 #include <algorithm>
 
@@ -13,10 +13,10 @@ namespace slipnav {
 /// Running mean and running minimum of the interval between samples.
 class Cadence {
  public:
-  /// @param longest_s a longer interval is an outage, from which nothing is learned
+  /// @param longest_s a longer interval is an outage, and is not learned from
   explicit Cadence(double longest_s) : longest_s_(longest_s) {}
 
-  /// Nothing is known of what comes after `stamp`.
+  /// Nothing is known about what comes after `stamp`.
   void restart(Nanoseconds stamp);
 
   /// The next sample in the order of stamps.
@@ -31,8 +31,8 @@ class Cadence {
   /// Whether a sample may be missing between two stamps; always true until the usual interval is known.
   bool isHole(Nanoseconds from, Nanoseconds to) const;
 
-  /// No sample is due before this. One that comes earlier after all counts as if it ended here, so that nothing need be
-  /// waited for until then. newest() until the usual interval is known.
+  /// No sample is due before this. One that arrives earlier anyway counts as if it ended here, so that there is no need
+  /// to wait until then. Equals newest() until the usual interval is known.
   Nanoseconds quietUntil() const;
 
   /// When the sample with this stamp, later than newest(), counts.

@@ -1,11 +1,11 @@
 #pragma once
-/// When IMU samples were taken, from when a host has stamped them.
+/// When IMU samples were taken, given when a host stamped them.
 ///
-/// An IMU samples at an even pace; a host stamps when it gets round to it: late, in bursts, several at once. What was
-/// integrated over such intervals would be wrong by the scatter of the stamps times the specific force. The model is a
+/// An IMU samples at a steady rate; a host stamps when it gets around to it: late, in bursts, several at once. An
+/// integral over such intervals would be wrong by the stamp scatter times the specific force. The model is a
 /// line through sample number and time, along the lower edge of the stamps (no sample is stamped before it was taken),
-/// fitted over the last seconds. Numbers are missing where samples were lost: where stamps stay late by whole intervals
-/// and do not catch up. Stamps that lie on such a line already are left as they are, to the bit; see doc/time.md.
+/// fitted over the last seconds. Numbers are skipped where samples were lost: where stamps stay late by whole intervals
+/// and do not catch up. Stamps already on such a line are kept, to the bit; see doc/time.md.
 
 #include <array>
 #include <cstdint>
@@ -18,14 +18,14 @@
 
 namespace slipnav {
 
-/// What is wrong with the stamps of an IMU.
+/// Problems of the stamps of an IMU.
 struct StampFaults {
-  double scatter_s = 0.0;         ///< half of the span of the stamps about an even pace, over the last seconds
+  double scatter_s = 0.0;         ///< half of the span of the stamps about a steady interval, over the last seconds
   double usual_interval_s = 0.0;  ///< 0: not known yet
-  std::uint64_t equal = 0;        ///< samples with the stamp of the one before, and other values
-  std::uint64_t lost = 0;         ///< samples that are missing
+  std::uint64_t equal = 0;        ///< samples with the previous stamp but other values
+  std::uint64_t lost = 0;         ///< missing samples
 
-  /// Whether they scatter by more than is usual of a clock that is read when a sample is taken.
+  /// Whether they scatter more than a clock read at the time of sampling.
   bool scatters() const;
 };
 
@@ -35,7 +35,7 @@ struct SampleLine {
   double period_s = 0.0;
 };
 
-/// A line by least squares; sums are taken about a running mean.
+/// A least-squares line; sums are taken about a running mean.
 class LineFit {
  public:
   void add(double number, double time_s);
@@ -49,7 +49,7 @@ class LineFit {
   double product_ = 0.0;
 };
 
-/// For one source, whose samples come in order. Depends on stamps alone; nothing is allocated while stamps are even.
+/// For one source, whose samples come in order. Depends only on stamps; no allocation while stamps are steady.
 class ImuClock {
  public:
   /// @param gap_factor a sample that is late by more usual intervals than this, less one, may follow lost ones
@@ -57,14 +57,14 @@ class ImuClock {
 
   void push(const ImuSample& sample);
 
-  /// The next sample, with its stamp corrected. One that is older than those before it, or repeated, is for others to
-  /// refuse: its stamp is not newer than the one before.
+  /// The next sample, with its stamp corrected. One that is older than its predecessors, or repeated, is left to the
+  /// caller to reject: its stamp is not newer than the previous one.
   std::optional<ImuSample> pop();
 
   const StampFaults& faults() const { return faults_; }
 
  private:
-  /// The sample of a block that was stamped earliest against the line, and how the block lies about it.
+  /// The sample of a block stamped earliest relative to the line, and how the block lies about it.
   struct Block {
     double index = 0.0;
     double time_s = 0.0;
@@ -95,20 +95,20 @@ class ImuClock {
 
   double late_limit_;
   UsualInterval usual_;
-  RingQueue<ImuSample> held_;   ///< late; those that follow tell whether samples are missing before them
+  RingQueue<ImuSample> held_;   ///< late; later ones tell whether samples are missing before them
   RingQueue<ImuSample> ready_;  ///< corrected
   std::optional<ImuSample> newest_;
   Nanoseconds anchor_ = 0;  ///< time 0 of the line
   Nanoseconds released_ = 0;
   bool following_ = false;  ///< the line is known
-  double index_ = 0.0;      ///< of the newest sample that was used, those lost counted in
+  double index_ = 0.0;      ///< of the newest used sample, including lost ones
   double line_s_ = 0.0;     ///< its time by the line
   double period_s_ = 0.0;
-  std::optional<SampleLine> target_;  ///< to which the line is led
+  std::optional<SampleLine> target_;  ///< the line to converge to
   double late_s_ = 0.0;               ///< greatest lateness over the blocks
-  double early_s_ = 0.0;              ///< likewise against the line
+  double early_s_ = 0.0;              ///< likewise relative to the line
   std::array<Block, kBlocks> blocks_ = {};
-  std::size_t block_count_ = 0;  ///< ever closed, since the line was last begun
+  std::size_t block_count_ = 0;  ///< closed since the line was last restarted
   Block open_;
   std::vector<double> first_s_;  ///< times of the first samples
   StampFaults faults_;

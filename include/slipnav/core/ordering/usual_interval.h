@@ -1,26 +1,26 @@
 #pragma once
-/// The usual interval between the samples of one source, whatever single stamps say.
+/// The usual interval between samples of one source, robust against single stamps.
 ///
-/// Running median of the mean over a few intervals in a row: the mean sees through stamps that bunch or scatter, the
-/// median through what is lost. It is fed by every interval, so that it rises as well as it falls.
+/// Running median of the mean over a few successive intervals: the mean sees through stamps that bunch or scatter, the
+/// median through losses. Every interval is used, so that it rises as well as falls.
 
 #include <array>
 #include <cstddef>
 
 namespace slipnav {
 
-/// Nothing is allocated.
+/// Does not allocate.
 class UsualInterval {
  public:
   /// Intervals over which a mean is taken.
   static constexpr std::size_t kSpan = 16;
-  /// Means of which the median is taken.
+  /// Means over which the median is taken.
   static constexpr std::size_t kMeans = 65;
 
   void reset() { *this = UsualInterval(); }
   void add(double interval_s);
 
-  /// 0 before the first interval; until there are kSpan of them, their median [s].
+  /// 0 before the first interval; the median of the intervals while there are fewer than kSpan [s].
   double value() const { return sorted_count_ == 0 ? 0.0 : sorted_[sorted_count_ / 2]; }
 
   /// Whether there have been kSpan intervals.

@@ -1,5 +1,5 @@
 #pragma once
-/// How a parameter struct shows its fields: one list per struct serves YAML, ROS parameters, checks and documentation.
+/// How a parameter struct describes its fields: one list per struct serves YAML, ROS parameters, checks and docs.
 ///
 /// A struct `P` has a member `void visit(ParameterVisitor& v)` that calls one function below per field. Readers write
 /// into the reference, writers and checkers read it. Names carry the unit as a suffix; values stay in that unit.
@@ -23,16 +23,16 @@ class ParameterVisitor {
  public:
   virtual ~ParameterVisitor() = default;
 
-  /// One field of each kind: its key in YAML, the value, what it may be, and in a phrase what it means.
+  /// One field of each kind: its key in YAML, the value, what is allowed, and a phrase that says what it means.
   virtual void number(const char* name, double& value, Range range, const char* meaning) = 0;
   virtual void integer(const char* name, int& value, Range range, const char* meaning) = 0;
   virtual void flag(const char* name, bool& value, const char* meaning) = 0;
   virtual void text(const char* name, std::string& value, const char* meaning) = 0;
   virtual void choice(const char* name, std::string& value, std::initializer_list<const char*> options,
                       const char* meaning) = 0;
-  /// A list of numbers of fixed length (the length of `value` as it comes in); an empty one may take any length.
+  /// A list of numbers of fixed length (the length of `value` on entry); an empty one may take any length.
   virtual void numbers(const char* name, std::vector<double>& value, Range range, const char* meaning) = 0;
-  /// A list of words, each one of `options` (any word when `options` is empty).
+  /// A list of words, each one of `options` (any word if `options` is empty).
   virtual void words(const char* name, std::vector<std::string>& value, std::initializer_list<const char*> options,
                      const char* meaning) = 0;
 
@@ -61,10 +61,10 @@ class ParameterVisitor {
   }
 
  protected:
-  /// @return whether the fields of the block are to be visited; leaveGroup() follows only then
+  /// @return whether the fields of the block are to be visited; leaveGroup() is called only then
   virtual bool enterGroup(const char* name, const char* meaning) = 0;
   virtual void leaveGroup() = 0;
-  /// @return the length of the list that replaces the present one; nothing to leave that as it is
+  /// @return the length of the list that replaces the present one; nothing to keep that
   virtual std::optional<std::size_t> enterList(const char* name, std::size_t current_size, const char* meaning) = 0;
   virtual void enterItem(std::size_t index) = 0;
   virtual void leaveItem() = 0;

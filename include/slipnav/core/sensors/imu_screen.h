@@ -1,6 +1,6 @@
 #pragma once
-/// Tells usable IMU samples from those that are not. The same samples in the same order give the same verdicts, so that
-/// everybody who listens to one IMU agrees on what has happened.
+/// Tells usable IMU samples from unusable ones. The same samples in the same order give the same verdicts, so that
+/// all listeners of one IMU agree on what has happened.
 
 #include <array>
 #include <string>
@@ -22,15 +22,15 @@ struct ImuInputParams {
   void visit(ParameterVisitor& v);
 };
 
-/// What is to become of a sample.
+/// What happens to a sample.
 enum class ImuVerdict {
   kAccepted,
   kAfterGap,      ///< accepted; samples are missing before it
-  kNotFinite,     ///< refused: NaN or infinite
-  kOutOfRange,    ///< refused: at or beyond the end of what the sensor can measure
-  kStuck,         ///< refused: one axis has not changed for long while others of its kind do
-  kNotNewer,      ///< refused: repeated stamp, or older than the newest by less than a second
-  kTimeWentBack,  ///< refused: older by a second or more; the source has started anew
+  kNotFinite,     ///< rejected: NaN or infinite
+  kOutOfRange,    ///< rejected: at or beyond the limit of the sensor's range
+  kStuck,         ///< rejected: one axis has not changed for long while others of its kind do
+  kNotNewer,      ///< rejected: repeated stamp, or older than the newest by less than a second
+  kTimeWentBack,  ///< rejected: older by a second or more; the source has restarted
 };
 
 constexpr bool isAccepted(ImuVerdict verdict) {
@@ -40,31 +40,31 @@ constexpr bool isAccepted(ImuVerdict verdict) {
 /// The verdict in words, "" for an accepted sample.
 const char* complaintOf(ImuVerdict verdict);
 
-/// Judges each sample by those before it.
+/// Judges each sample by its predecessors.
 class ImuScreen {
  public:
   /// Verdict on a sample, and the interval that it ends.
   struct Result {
     ImuVerdict verdict = ImuVerdict::kAccepted;
-    double duration_s = 0.0;  ///< since the accepted sample before; 0 for the first
+    double duration_s = 0.0;  ///< since the previous accepted sample; 0 for the first
     double gap_s = 0.0;       ///< time without samples in it
   };
 
   explicit ImuScreen(const ImuInputParams& params) : params_(params) {}
 
-  /// Forgets all samples.
+  /// Discards all samples.
   void reset();
 
   Result check(const ImuSample& sample);
 
   /// Stamp of the newest accepted sample, 0 before the first.
   Nanoseconds newestStamp() const { return newest_stamp_; }
-  /// Whether all axes have repeated the very same values `stuck_samples` times: a sensor or driver that hangs. The
-  /// samples are accepted nevertheless, since a sensor that counts coarsely says the same at rest.
+  /// Whether all axes have repeated exactly the same values `stuck_samples` times: a sensor or driver that hangs. The
+  /// samples are accepted nevertheless, since a sensor with coarse resolution repeats itself at rest.
   bool isFrozen() const;
 
  private:
-  /// How often in a row each axis of one triad has had the very same value.
+  /// How often in a row each axis of one triad has had exactly the same value.
   struct Repeats {
     Vector3 value = Vector3::Zero();
     std::array<int, 3> count = {};

@@ -22,18 +22,18 @@ struct WheelParams {
 /// The paper's rover: front left, front right, back left, back right.
 std::vector<WheelParams> pathfinderWheels();
 
-/// Forward speed and heading rate that fit the wheels' circumferential speeds best.
+/// Least-squares forward speed and heading rate of the wheels' circumferential speeds.
 struct PlanarMotion {
   double forward_mps = 0.0;
   double yaw_rate_radps = 0.0;  ///< about body z, down: positive turns right
   bool has_yaw_rate = false;
 };
 
-/// Where the wheels are, and what their rates say about the vehicle. Immutable.
+/// Wheel positions, and the vehicle motion that follows from their rates. Immutable.
 class WheelGeometry {
  public:
   /// @param scrub_factor how much wider the track appears when a skid-steered rover turns; 1 for no scrubbing
-  /// Throws std::invalid_argument that names what is wrong with the list.
+  /// Throws std::invalid_argument that names the error in the list.
   WheelGeometry(std::vector<WheelParams> wheels, double scrub_factor);
 
   std::size_t count() const { return wheels_.size(); }

@@ -1,9 +1,9 @@
 #pragma once
-/// Which wheels contradict the others for longer than slip explains: a dead encoder, a wheel in the air, joints that
-/// are mixed up.
+/// Wheels that contradict the others for longer than slip explains: a dead encoder, a wheel in the air, swapped
+/// joints.
 ///
-/// Each wheel i says how fast the vehicle goes, u_i = v_i + ω_z y_i with the heading rate of the gyros and y_i to the
-/// right. One that is away from the median of all for some time is left out until it has agreed for as long again.
+/// Each wheel i gives a vehicle speed, u_i = v_i + ω_z y_i with the heading rate of the gyros and y_i to the
+/// right. One that deviates from the median for some time is excluded until it has agreed for as long again.
 
 #include <array>
 #include <vector>
@@ -23,10 +23,10 @@ struct WheelMonitorParams {
   void visit(ParameterVisitor& v);
 };
 
-/// Verdict on each wheel, by the order of the configuration.
+/// Verdict on each wheel, in the order of the configuration.
 class WheelMonitor {
  public:
-  /// @param wheels as configured; without any, or with a single one, nothing is ever found
+  /// @param wheels as configured; with none or a single one, nothing is ever found
   WheelMonitor(const WheelMonitorParams& params, const std::vector<WheelParams>& wheels);
 
   /// Forgets everything.
@@ -40,7 +40,7 @@ class WheelMonitor {
   std::size_t faultyCount() const;
   std::size_t count() const { return y_right_m_.size(); }
 
-  /// The forward speed that the sound wheels say [m/s]; of use when more than half of them are sound.
+  /// Forward speed from the sound wheels [m/s]; meaningful if more than half of them are sound.
   double soundSpeed() const { return sound_speed_mps_; }
   /// Whether wheel speed may be used at all: fewer than half of the wheels are faulty.
   bool isUsable() const { return 2 * faultyCount() < count() || faultyCount() == 0; }

@@ -8,11 +8,11 @@
 namespace slipnav {
 namespace {
 
-/// Ten innovations that agree with the one before make a factor of e² on the density.
+/// Ten innovations that agree with their predecessors make a factor of e² on the density.
 constexpr double kGain = 0.3;
-/// Where Q and R are right the products scatter about zero by 1: this much less keeps their sum from wandering off.
+/// With the right Q and R the products scatter about zero by 1: subtracting this keeps their sum from drifting.
 constexpr double kTowardsDataSheet = 0.3;
-/// A pair of outliers says no more than two standard deviations.
+/// A pair of outliers counts no more than two standard deviations.
 constexpr double kLargestProduct = 2.0;
 constexpr double kLargestTheta = 9.0;
 /// Cosine beyond which two directions count as one.

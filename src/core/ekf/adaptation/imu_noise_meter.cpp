@@ -9,9 +9,9 @@ namespace {
 constexpr double kMemory_s = 4.0;
 constexpr double kRecent_s = 0.5;
 constexpr double kEnough_s = 0.5;
-/// Of white noise, against that of one block mean.
+/// For white noise, relative to the variance of one block mean.
 constexpr double kThirdDifferenceVariance = 20.0;
-/// Of the mean of n squares of them, relative to its own square, times n: 2 (1 + 2 Σ ρ²) with the correlations
+/// Variance of the mean of n of their squares, relative to its own square, times n: 2 (1 + 2 Σ ρ²) with correlations
 /// -15/20, 6/20 and -1/20 of differences that share blocks.
 constexpr double kMeanSquareVariance = 4.62;
 

@@ -12,20 +12,20 @@ namespace {
 /// A random walk over two adjoining intervals T changes the mean from one to the next by the variance ⅔ N² T.
 constexpr double kMeanToMean = 2.0 / 3.0;
 constexpr double kDominant = 0.5;
-/// Ground may change at any time: of the quietest road no less is assumed.
+/// Ground may change at any time: even the smoothest road is assumed to have this much.
 constexpr double kLeastSlowSlip = 0.004;
-/// What shakes an IMU is white for so long and a bias beyond: a walk of the bias moves the velocity as far as the noise
-/// does after this time.
+/// IMU vibration acts as white noise below this time and as a bias beyond: after this long a walk of the bias has moved
+/// the velocity as much as the noise has.
 constexpr double kWhiteFor_s = 20.0;
-/// Of what a bias may be by its data sheet this part is not constant in motion, and new about every second.
+/// This fraction of the data-sheet bias is not constant in motion, and new about every second.
 constexpr double kUnsteadyBias = 0.1;
 constexpr double kUnsteadyFor_s = 1.0;
 
 /// Fast slip and the sway and heave of the body are never less than configured: a stretch of smooth ground says nothing
-/// about the next, and the filter would be sure of its attitude by what it believes of the body.
+/// about the next, and the filter would become overconfident in its attitude through its model of the body.
 double atLeastConfigured(double factor) { return std::max(1.0, factor); }
 
-/// Only an innovation that persistent slip dominates, as when the rover stops, says something about it.
+/// Only an innovation dominated by persistent slip, as when the rover stops, says anything about it.
 double shareOfPersistentSlip(const Innovation1& innovation) {
   return innovation.by_persistent_slip > kDominant * innovation.variance ? innovation.by_persistent_slip : 0.0;
 }
@@ -79,7 +79,7 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   ground.fast_slip_variance *= factor.fast_slip;
   ground.slow_slip_variance =
       ground.slow_slip_variance * factor.slow_slip + square(slope_slip_ * C_b_to_n(2, 0)) + square(kLeastSlowSlip);
-  // Ground on which the wheels lose a third of their way is not one whose slip is a few percent.
+  // Ground on which the wheels lose a third of their travel is not ground with a few percent of slip.
   ground.slow_slip_variance = std::max(ground.slow_slip_variance, square(slow_slip));
   ground.side_slip_variance = ground.side_slip_variance * factor.side_slip + square(slope_slip_ * C_b_to_n(2, 1));
   dynamics.rollOver(ground, transition);
@@ -93,13 +93,13 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   transition.noise.segment<3>(kAttitude) += squared * gyro;
   add(transition, accel, forward_);
   add(transition, accel, constraints_);
-  if (way_m > 0.0 && step.gap_s <= 0.0) {  // what may happen in a gap is added at its end
+  if (way_m > 0.0 && step.gap_s <= 0.0) {  // motion in a gap is accounted for at its end
     addDoubt(shaking, squared, duration_s, transition);
   }
   way_m_ += way_m;
 }
 
-/// Noise of an IMU in motion beyond what its data sheet and its samples say.
+/// IMU noise in motion beyond what its data sheet and its samples show.
 /// @param squared C_b_to_n with its elements squared
 void NoiseAdaptation::addDoubt(const ImuNoiseDensity& shaking, const Matrix3& squared, double duration_s,
                                ErrorTransition& transition) const {
@@ -145,7 +145,7 @@ void NoiseAdaptation::learnVertical(double own_variance, const Innovation1& inno
                   shares);
 }
 
-/// @param squared difference to the innovation before, negative where there is none
+/// @param squared difference to the previous innovation, negative if there is none
 void NoiseAdaptation::learnConstraint(NoiseKind kind, double own_variance, const Innovation1& innovation,
                                       double squared, NoiseVector shares) {
   if (squared < 0.0) {

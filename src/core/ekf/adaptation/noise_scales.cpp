@@ -10,16 +10,16 @@ namespace {
 
 /// One outlier must not turn a road into sand.
 constexpr double kLargestNis = 30.0;
-/// What was learned fades towards the prior over so many lengths of the memory.
+/// What was learned fades towards the prior over this many memory lengths.
 constexpr double kPriorLengths = 10.0;
-/// Way between innovations of the wheel speed, and between those of the constraints [m].
+/// Distance between innovations of the wheel speed, and between those of the constraints [m].
 constexpr double kWheelInterval_m = 0.1;
 constexpr double kConstraintInterval_m = 1.0;
 constexpr double kLeastTheta = -9.0;
 
-/// What noise of this kind can be at most: beyond it a contradiction is about the state. An encoder may be ninety times
-/// as coarse as configured; a body does not pitch by more than a tenth about its path, nor slip by more than a third
-/// for long.
+/// Upper limits on the noise of each kind: beyond them a contradiction is about the state. An encoder may be ninety
+/// times as coarse as configured; a body does not pitch by more than a tenth about its path, nor slip by more than a
+/// third for long.
 const NoiseVector& largestTheta() {
   static const NoiseVector largest = (NoiseVector() << 9.0, 2.2, 3.2, 4.2, 3.2, 4.2, 0.0).finished();
   return largest;
@@ -45,15 +45,15 @@ double mostProbable(const NoiseVector& shares, const NoiseVector& direction, dou
 }  // namespace
 
 void NoiseScaleParams::visit(ParameterVisitor& v) {
-  v.number("length_m", length_m, {0.1, 1e6}, "way over which what was learned of noise and ground is forgotten [m]");
+  v.number("length_m", length_m, {0.1, 1e6}, "distance over which learned noise and ground are forgotten [m]");
   v.number("factor_std", factor_std, {1.0, 100.0},
            "how far a configured standard deviation may be off, 1σ as a factor; 1: it is exact, nothing is learned");
   v.number("slip_factor_std", slip_factor_std, {1.0, 100.0}, "the same for slip and side slip");
   v.number("imu_factor_std", imu_factor_std, {1.0, 100.0},
-           "how much noisier than on its data sheet the IMU is taken to be in motion, as a factor on the standard "
-           "deviations, until the constraints have told; 1: the data sheet is exact, nothing is learned");
+           "how much noisier than its data sheet the IMU is assumed to be in motion, as a factor on the standard "
+           "deviations, until the constraints show it; 1: the data sheet is exact, nothing is learned");
   v.number("whiteness", whiteness, {0.0, 1.0},
-           "part of the IMU's shaking that integrates like white noise, before anything is learned");
+           "fraction of the IMU's vibration that integrates like white noise, before anything is learned");
   v.number("whiteness_factor_std", whiteness_factor_std, {1.0, 100.0}, "how far that may be off, 1σ as a factor");
 }
 

@@ -13,17 +13,17 @@
 namespace slipnav {
 namespace {
 
-/// Receivers give a fix every second at least; after a longer silence nobody knows when the next one comes [s].
+/// Receivers give a fix at least every second; after a longer silence the next one cannot be predicted [s].
 constexpr double kLongestFixInterval_s = 2.5;
 constexpr std::size_t kMaxFixes = 4096;  // not yet applied
 
-/// An estimate of slip beyond so many of its standard deviations is no error of the IMU.
+/// An estimated slip beyond this many standard deviations is not an IMU error.
 constexpr double kShownSigmas = 2.0;
 
 double shownSlip(double slip, double variance) { return square(slip) > square(kShownSigmas) * variance ? slip : 0.0; }
 
-/// Fast slip that shows beyond doubt is not drawn back to zero as if it were the ground's usual: where soft ground
-/// begins, the wheels would pull the velocity along within a meter. It is driven by its own square until it passes.
+/// Significant fast slip is not pulled back to zero as if it were usual for the ground: where soft ground begins, the
+/// wheels would pull the velocity along within a meter. It is driven by its own square until it has passed.
 void holdShownSlip(double slip, double ground_variance, ErrorTransition& transition) {
   if (square(slip) > ground_variance && ground_variance > 0.0) {
     transition.noise(kFastSlip) *= square(slip) / ground_variance;
@@ -87,7 +87,7 @@ void FilterEngine::initialise(const InitialState& initial) {
   if (initial.tremor_variance > 0.0) {
     tremor_.setVariance(initial.tremor_variance);
   }
-  // A wheel interval that began before the initial state is not known in full and goes unused.
+  // A wheel interval that began before the initial state is not known in full and is not used.
   average_.restart(wheels_.start(initial.nav.stamp) ? initial.nav.stamp : 0);
   constraint_average_.restart(0);
   slipping_speed_.reset();
@@ -119,7 +119,7 @@ bool FilterEngine::push(const WheelMotion& wheels) {
     return false;
   }
   if (initialised_ && next_sequence_ == 0 && wheels.stamp == state_.stamp) {
-    average_.restart(state_.stamp);  // begins the first interval
+    average_.restart(state_.stamp);  // starts the first interval
     return true;
   }
   return wheels_.push(wheels, state_.stamp);
@@ -132,7 +132,7 @@ Correction FilterEngine::place(const Placement& placement) {
                         std::isfinite(placement.heading_rad.value_or(0.0)) &&
                         (!placement.heading_rad || placement.heading_std_rad > 0.0);
   if (!possible) {
-    throw std::invalid_argument("the place is not one on this planet, or a standard deviation is not above 0");
+    throw std::invalid_argument("the position is not on this planet, or a standard deviation is not above 0");
   }
   if (!initialised_ || next_sequence_ == 0) {
     throw std::invalid_argument("there is no estimate yet");
@@ -164,7 +164,7 @@ InitialState FilterEngine::snapshot() const {
   return snapshot;
 }
 
-/// Turns the whole state about the vertical; the velocity goes along, and is as uncertain as its new direction.
+/// Rotates the whole state about the vertical; the velocity rotates too, and is as uncertain as its new direction.
 void FilterEngine::turnTo(double heading_rad, double heading_std_rad) {
   const Quaternion turn(Eigen::AngleAxisd(heading_rad - eulerFrom_q_b_to_n(state_.q_b_to_n).z(), Vector3::UnitZ()));
   state_.q_b_to_n = (turn * state_.q_b_to_n).normalized();
@@ -239,7 +239,8 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
   adaptation_.addNoise(dynamics_, step, step.state, shownSlip(vehicle_.slow_slip, P_(kSlowSlip, kSlowSlip)),
                        surface_speed_mps_ * duration_s, transition_);
-  if (state_.v_eb_n.norm() * setup_.filter.max_rejection_s > setup_.vehicle.fast_slip_length_m) {  // else the IMU drifts
+  // A slower rover does not hold its slip: its IMU would drift meanwhile.
+  if (state_.v_eb_n.norm() * setup_.filter.max_rejection_s > setup_.vehicle.fast_slip_length_m) {
     holdShownSlip(shownSlip(vehicle_.fast_slip, P_(kFastSlip, kFastSlip)), adaptation_.ground().fast_slip_variance,
                   transition_);
   }
@@ -258,7 +259,7 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
     endGap(step, before);
   }
   const Vector3 v_end_b = referenceVelocity(step);
-  return step.gap_s > 0.0 ? v_end_b : 0.5 * (v_start_b + v_end_b);  // nothing is known of the way through a gap
+  return step.gap_s > 0.0 ? v_end_b : 0.5 * (v_start_b + v_end_b);  // the path through a gap is unknown
 }
 
 void FilterEngine::endGap(const InsStep& step, const NavigationState& before) {
@@ -277,8 +278,8 @@ Vector3 FilterEngine::referenceVelocity(const InsStep& step) const {
   return bodyVelocity(state_, step.omega_ib_b - omega_ie_b, setup_.lever_imu_to_reference_b);
 }
 
-/// What was known of a slip impulse is void after a gap: were it kept, the wheels could say nothing about the speed,
-/// and the tilt, unknown now, would turn into speed before it is seen.
+/// After a gap the slip impulse estimate is void: if it were kept, the wheels could say nothing about the speed,
+/// and the tilt, now unknown, would turn into speed before it is observed.
 void FilterEngine::forgetSlipImpulse() {
   forget(kFastSlip, dynamics_.priorVariance()(kFastSlip));
   vehicle_.fast_slip = 0.0;
@@ -315,7 +316,7 @@ bool FilterEngine::applyFixes(const InsStep& step) {
   return corrected;
 }
 
-/// Gated by what the receiver says of it, and weighted by what it adds to the fixes before.
+/// Gated by the receiver's covariance, and weighted by what it adds to earlier fixes.
 void FilterEngine::addFix(const PositionFix& fix, MeasurementSet& set) const {
   const double factor = setup_.gnss.always() && used_fix_ != 0
                             ? repeatedFixFactor(toSeconds(fix.stamp - used_fix_), setup_.gnss.correlation_s)

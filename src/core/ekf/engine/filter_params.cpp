@@ -10,10 +10,9 @@ void FilterParams::visit(ParameterVisitor& v) {
   v.number("gate_alpha", gate_alpha, {1e-12, 0.5},
            "probability with which a good measurement fails the innovation gate");
   v.number("zero_velocity_gate_alpha", zero_velocity_gate_alpha, {1e-12, 0.5},
-           "the same for zero velocity and zero rate, which encoders and IMU have agreed on already");
-  v.number(
-      "max_rejection_s", max_rejection_s, {0.0, 1e6},
-      "what a wheel or constraint measurement has contradicted for so long is the state: its covariance is opened [s]");
+           "the same for zero velocity and zero rate, on which encoders and IMU already agree");
+  v.number("max_rejection_s", max_rejection_s, {0.0, 1e6},
+           "after a wheel or constraint measurement contradicts for this long, the covariance is inflated [s]");
   v.number("max_standstill_doubt_s", max_standstill_doubt_s, {0.0, 60.0},
            "the same for a standstill that encoders and IMU agree on [s]");
   v.number("max_wait_s", max_wait_s, {0.0, 10.0}, "how long a step waits for a late wheel sample [s]");
@@ -24,7 +23,7 @@ void FilterParams::visit(ParameterVisitor& v) {
   v.number("gap_accel_std_mps2", gap_accel_std_mps2, {0.0, 100.0},
            "1σ of the mean acceleration in a gap of the IMU [m/s²]");
   v.number("gap_max_tilt_deg", gap_max_tilt_deg, {0.0, 90.0},
-           "1σ of what the ground can do to roll and pitch in a gap of whatever length [°]");
+           "largest 1σ added to roll and pitch by a gap, however long [°]");
   v.group("adaptation", adaptation, "how the noise of wheels, ground and IMU is learned while driving");
 }
 

@@ -24,7 +24,7 @@ double GatedUpdate::limit(const MeasurementSet::Block& block) const {
 }
 
 /// How long a measurement may contradict before the state is doubted instead. Scrub and slip of one side contradict the
-/// gyro for long, and a receiver may be wrong for long: neither is worth opening the state for.
+/// gyro for long, and a receiver may be wrong for long: neither justifies inflating the covariance.
 double GatedUpdate::patience(Component component) const {
   switch (component) {
     case kZeroVelocity:

@@ -1,4 +1,4 @@
-/// The part of FilterEngine that begins anew where the estimate has run away.
+/// The part of FilterEngine that restarts the estimate when it has run away.
 
 #include "core/base/square.h"
 #include "slipnav/core/base/rotation.h"
@@ -6,8 +6,8 @@
 
 namespace slipnav {
 
-/// Position and heading stay: nothing else knows them. The velocity is that of the wheels, the level that of the
-/// specific force, and whatever else could have been learned while the estimate ran away is as it was at the start.
+/// Position and heading are kept: nothing else knows them. The velocity comes from the wheels, the tilt from the
+/// specific force, and everything else that could have been learned while the estimate ran away is reset.
 void FilterEngine::recover(const WheelMotion& wheels) {
   ++recoveries_;
   estimate_.stationary = estimate_.stuck = estimate_.wheel_speed_used = false;

@@ -7,11 +7,11 @@
 namespace slipnav {
 namespace {
 
-constexpr double kFactor = 2.0;  // a wheel that locks at speed leaves the vehicle at once that speed
+constexpr double kFactor = 2.0;  // a wheel that locks at speed leaves the vehicle at that speed, once
 constexpr double kLasting_s = 1.0;
-constexpr double kLeast_mps = 0.1;    // wheels that have hardly turned yet are no measure
-constexpr double kLevelling_s = 5.0;  // rocking over stones averages out, the way to a slope is not yet forgotten
-constexpr double kShortest_s = 0.1;   // of levelling
+constexpr double kLeast_mps = 0.1;    // wheels that have hardly turned yet give no reference
+constexpr double kLevelling_s = 5.0;  // rocking over stones averages out, the approach to a slope is still included
+constexpr double kShortest_s = 0.1;   // for leveling
 
 }  // namespace
 

@@ -9,8 +9,8 @@ namespace slipnav {
 namespace {
 
 constexpr double kSettling_s = 10.0;
-constexpr int kAgreements = 10;  // a second of standstill, as a rule
-constexpr double kFaster = 2.0;  // than it has ever gone
+constexpr int kAgreements = 10;  // typically a second of standstill
+constexpr double kFaster = 2.0;  // than ever before
 
 }  // namespace
 

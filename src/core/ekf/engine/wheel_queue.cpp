@@ -5,7 +5,7 @@
 namespace slipnav {
 namespace {
 
-constexpr std::size_t kMaxWaiting = 4096;  // samples kept while there is no start yet
+constexpr std::size_t kMaxWaiting = 4096;  // samples kept before the start
 
 bool earlier(const WheelMotion& a, const WheelMotion& b) { return a.stamp < b.stamp; }
 

@@ -1,4 +1,4 @@
-/// The part of FilterEngine that a wheel sample sets off: standstill, forward speed, heading rate, constraints.
+/// The part of FilterEngine triggered by a wheel sample: standstill, forward speed, heading rate, constraints.
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace slipnav {
 namespace {
 
-/// Slip beyond this is no slip: the wheels stand, or the state is wrong.
+/// Beyond this it is not slip: the wheels stand, or the state is wrong.
 constexpr double kLargestSlipJump = 2.0;
 constexpr double kIntervalTolerance_s = 1e-3;
 constexpr double kMoreThanSteady = 1.1;
@@ -31,7 +31,7 @@ bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
   if (toSeconds(step.state.stamp - estimate_.wheels.stamp) > setup_.filter.max_wheel_interval_s) {
     estimate_.stationary = false;
     estimate_.stuck = false;
-    stuck_.reset();  // what does not turn any more does not spin
+    stuck_.reset();  // wheels that no longer turn do not spin
   }
   bool corrected = false;
   while (wheels_.hasUpTo(step.state.stamp)) {
@@ -45,7 +45,7 @@ bool FilterEngine::applyWheels(const InsStep& step, const Vector3& v_mean_b) {
     if (!whole) {
       constraint_average_.restart(wheels.stamp);
     } else if (!wheels_.hasUpTo(step.state.stamp)) {
-      // Of several in one step, as in a gap of the IMU, the last one counts: what they are compared with does not
+      // Of several in one step, as in an IMU gap, the last one counts: the reference of the others would not
       // follow from one correction to the next.
       corrected = applyWheelSample(wheels, *motion) || corrected;
     }
@@ -99,13 +99,13 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   estimate_.stuck = stuck;
   estimate_.noise_factors = adaptation_.factors();
   const double slow_slip_variance = dynamics_.ground().slow_slip_variance;
-  if (slow_slip_variance > 0.0) {  // with the slope, and the slip that the ground has been seen to have
+  if (slow_slip_variance > 0.0) {  // including the slope and the slip seen on this ground
     estimate_.noise_factors.slow_slip = adaptation_.ground().slow_slip_variance / slow_slip_variance;
   }
   return corrected;
 }
 
-/// Whether it stands while its wheels turn. Needs a drive to compare with, seen before.
+/// Whether it stands while its wheels turn. Needs an earlier drive for comparison.
 bool FilterEngine::spinsOnTheSpot(const WheelMotion& wheels, const BodyMotion& motion) {
   SpinEvidence evidence;
   evidence.stamp = wheels.stamp;
@@ -118,7 +118,7 @@ bool FilterEngine::spinsOnTheSpot(const WheelMotion& wheels, const BodyMotion& m
   return stuck_.judge(evidence);
 }
 
-/// Wheels that spin say nothing about speed, heading or ground.
+/// Spinning wheels say nothing about speed, heading or ground.
 bool FilterEngine::standOnSpinningWheels(const WheelMotion& wheels, const BodyMotion& motion) {
   estimate_.stationary = false;
   estimate_.wheel_speed_used = false;
@@ -157,9 +157,9 @@ bool FilterEngine::stand(const WheelMotion& wheels, const BodyMotion& motion) {
   return corrected;
 }
 
-/// Persistent slip is that of the ground. Where the ground turns out to be worse it may have changed at once; where it
-/// turns out to be better, the state is conditioned on it: 1/R = 1/σ² − 1/P. The envelope over some meters keeps what
-/// is learned from taking back and forth what it has given.
+/// Persistent slip is a property of the ground. If the ground turns out worse, it may have changed at once; if
+/// better, the state is conditioned on it: 1/R = 1/σ² − 1/P. The envelope over some meters keeps the two from
+/// alternating.
 void FilterEngine::conditionOnGround() {
   const GroundStep& ground = adaptation_.ground();
   condition(kSlowSlip, ground.slow_slip_variance, vehicle_.slow_slip, slow_envelope_);
@@ -214,8 +214,8 @@ bool FilterEngine::drive(const WheelMotion& wheels, const BodyMotion& motion) {
   return corrected;
 }
 
-/// A wheel that loses its grip slips by whatever the innovation says: the fast slip is opened by just that (the scale
-/// mixture whose most probable variance is the square of the innovation), and keeps the state out of it.
+/// A wheel that loses grip slips by whatever the innovation says: the variance of the fast slip grows by just that (the
+/// scale mixture whose most probable variance is the square of the innovation), which keeps it out of the other states.
 void FilterEngine::addForwardSpeed(const WheelMotion& wheels, const BodyMotion& motion, MeasurementSet& set) {
   if (!wheel_monitor_.isUsable()) {
     return;
@@ -230,7 +230,7 @@ void FilterEngine::addForwardSpeed(const WheelMotion& wheels, const BodyMotion& 
                                                 slip_variance, adaptation_.factors());
   tell(kForwardSpeed, wheels.stamp, m);
   const Innovation1 innovation = innovationOf(m, kSlowSlip, P_);
-  if (wheels.largest_speed_mps > 0.0) {  // wheels at rest are exact, and say nothing about those that turn
+  if (wheels.largest_speed_mps > 0.0) {  // wheels at rest are exact, and say nothing about turning ones
     adaptation_.learnForward(setup_.wheel, interval, innovation);
   }
   const double squared = square(innovation.residual);
@@ -254,7 +254,7 @@ void FilterEngine::openSlowSlip() {
   }
 }
 
-/// Before anything is learned from the measurement, or opened for it.
+/// Before anything is learned from the measurement, or inflated for it.
 void FilterEngine::tell(Component component, Nanoseconds stamp, const Measurement& measurement) const {
   if (!on_innovation_) {
     return;
@@ -267,7 +267,7 @@ void FilterEngine::tell(Component component, Nanoseconds stamp, const Measuremen
 /// @param jump square of the slip that would explain the innovation
 void FilterEngine::loosen(const Measurement& forward, Nanoseconds stamp, double jump) {
   slipping_way_m_ += way_since_wheels_m_;
-  if (slipping_way_m_ > kLongestSlip_m) {  // no slip lasts for so long: the speed itself is doubted
+  if (slipping_way_m_ > kLongestSlip_m) {  // no slip lasts this long: the speed itself is doubted
     const Vector3 ahead_n = state_.q_b_to_n * Vector3::UnitX();
     P_.block<3, 3>(kVelocity, kVelocity) += square(forward.residual(0)) * ahead_n * ahead_n.transpose();
     slipping_way_m_ = 0.0;
@@ -280,7 +280,7 @@ void FilterEngine::loosen(const Measurement& forward, Nanoseconds stamp, double 
 
 void FilterEngine::addConstraints(Nanoseconds stamp, MeasurementSet& set) {
   const BodyMotion motion = *constraint_average_.mean();
-  const VelocityJacobian H_v = constraint_average_.jacobian();
+  const VelocityJacobian H_v = constraintJacobian(setup_.nonholonomic, constraint_average_.jacobian());
   const NoiseFactors factors = adaptation_.factors();
   const double information =
       constraintInformation(setup_.nonholonomic, std::abs(motion.v_eb_b.x()) * motion.duration_s);
@@ -297,7 +297,7 @@ void FilterEngine::addConstraints(Nanoseconds stamp, MeasurementSet& set) {
   set.add(kVertical, vertical);
 }
 
-/// The wheels' motion without those that contradict the others.
+/// The wheel motion without wheels that contradict the others.
 PlanarMotion FilterEngine::soundMotion(const WheelMotion& wheels) const {
   PlanarMotion motion = wheels.motion;
   if (wheel_monitor_.faultyCount() > 0) {

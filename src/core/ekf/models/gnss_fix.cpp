@@ -8,13 +8,13 @@ namespace slipnav {
 
 void FixParams::visit(ParameterVisitor& v) {
   v.choice("use", use, {"start", "always"},
-           "what gps/fix is for: start, to find it; always, while driving as well. The truth topics are never used");
+           "when gps/fix is used: start, for the start only; always, while driving as well. Never the truth topics");
   v.number("correlation_s", correlation_s, {0.0, 3600.0},
-           "how long the error of the receiver stays about the same: fixes in this time are worth one; 0: errors are "
+           "correlation time of the receiver error: fixes within it count as about one; 0: errors are "
            "independent [s]");
   v.number("max_wait_s", max_wait_s, {0.0, 10.0},
-           "with always, how late a fix may come after the IMU of its time; where none comes regularly, estimates are "
-           "so much later [s]");
+           "with always, how late a fix may come after the IMU of its time; with irregular fixes, estimates are "
+           "this much later [s]");
 }
 
 double repeatedFixFactor(double interval_s, double correlation_s) {

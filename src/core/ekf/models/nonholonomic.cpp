@@ -8,27 +8,36 @@
 namespace slipnav {
 namespace {
 
-/// Least information of a mean over hardly any way, against one over the whole length.
+/// Smallest information of a mean over hardly any distance, relative to one over the full length.
 constexpr double kLeastInformation = 0.05;
 
 }  // namespace
 
 void NonholonomicParams::visit(ParameterVisitor& v) {
   v.number("lateral_std_mps", lateral_std_mps, {1e-6, 10.0},
-           "1σ of the mean lateral speed beside the side slip, whatever the forward speed; more is learned [m/s]");
+           "1σ of the mean lateral speed besides side slip, at any forward speed; larger values are learned [m/s]");
   v.number("lateral_slope_std", lateral_slope_std, {0.0, 1.0},
-           "1σ of the mean lateral speed as a ratio of the forward speed: sway; more is learned");
+           "1σ of the mean lateral speed as a ratio of the forward speed: sway; larger values are learned");
   v.number("lateral_turn_std_m", lateral_turn_std_m, {0.0, 10.0},
            "1σ of the lateral speed per heading rate: how far the center of turn wanders along the vehicle [m]");
   v.number("vertical_std_mps", vertical_std_mps, {1e-6, 10.0},
-           "1σ of the mean speed off the ground, whatever the forward speed; more is learned [m/s]");
+           "1σ of the mean vertical speed, at any forward speed; larger values are learned [m/s]");
   v.number("vertical_slope_std", vertical_slope_std, {0.0, 1.0},
-           "1σ of the mean speed off the ground as a ratio of the forward speed: heave and pitch; more is learned");
+           "1σ of the mean vertical speed as a ratio of the forward speed: heave and pitch; larger values are learned");
   v.number("vertical_turn_std_m", vertical_turn_std_m, {0.0, 10.0},
-           "1σ of the speed off the ground per roll and pitch rate [m]");
-  v.number("length_m", length_m, {0.0, 100.0},
-           "way over which both are averaged, of the order of the vehicle's own length [m]");
+           "1σ of the vertical speed per roll and pitch rate [m]");
+  v.number("length_m", length_m, {0.0, 100.0}, "distance over which both are averaged, about the vehicle's length [m]");
   v.number("max_interval_s", max_interval_s, {0.0, 60.0}, "longest time over which both are averaged [s]");
+  v.flag("see_attitude", see_attitude,
+         "whether they depend on the attitude, which is correct; false for the paper's approximation");
+}
+
+VelocityJacobian constraintJacobian(const NonholonomicParams& params, const VelocityJacobian& H_v) {
+  VelocityJacobian H = H_v;
+  if (!params.see_attitude) {
+    H.middleCols<3>(kAttitude).setZero();
+  }
+  return H;
 }
 
 double constraintInformation(const NonholonomicParams& params, double way_m) {

@@ -8,7 +8,7 @@
 namespace slipnav {
 namespace {
 
-/// Interval and way that the configured deviations belong to.
+/// Interval and distance that the configured deviations refer to.
 constexpr double kReferenceInterval_s = 0.1;
 constexpr double kReferenceWay_m = 0.1;
 constexpr double kLeastWay_m = 1e-4;
@@ -17,18 +17,18 @@ constexpr double kLeastWay_m = 1e-4;
 
 void WheelOdometryParams::visit(ParameterVisitor& v) {
   v.choice("source", source, {"auto", "joint_states", "wheel_odometry"},
-           "which message the wheels' speeds are taken from; auto: joint_states from its first usable message on");
+           "message that provides the wheel speeds; auto: joint_states once it has a usable message");
   v.number("stamp_delay_s", stamp_delay_s, {-1.0, 1.0},
-           "how much later than the end of the interval, which its speeds are the mean of, a sample is stamped [s]");
+           "how late a sample is stamped after the end of the interval that its speeds are the mean of [s]");
   v.number("speed_std_mps", speed_std_mps, {1e-6, 10.0},
            "1σ of the mean wheel speed over 0.1 s, before anything is learned [m/s]");
-  v.number("slip_noise_std", slip_noise_std, {0.0, 1.0}, "1σ of the mean over 0.1 m of slip that has no memory");
-  v.number("stamp_std_s", stamp_std_s, {0.0, 1.0}, "1σ of the stamps against those of the IMU [s]");
+  v.number("slip_noise_std", slip_noise_std, {0.0, 1.0}, "1σ of uncorrelated slip, mean over 0.1 m");
+  v.number("stamp_std_s", stamp_std_s, {0.0, 1.0}, "1σ of the stamps relative to those of the IMU [s]");
   v.number("yaw_rate_std_deg_per_s", yaw_rate_std_deg_per_s, {1e-6, 1e3}, "1σ of the heading rate from wheels [°/s]");
   v.number("yaw_rate_scale_std", yaw_rate_scale_std, {0.0, 10.0},
            "1σ of the heading rate from wheels as a ratio of the rate: scrubbing");
   v.number("yaw_rate_length_m", yaw_rate_length_m, {1e-3, 1e4},
-           "how long an error of the heading rate from wheels lasts, as way of their surface [m]");
+           "how long an error of the heading rate from wheels lasts, as distance of wheel travel [m]");
   v.number("scrub_factor", scrub_factor, {0.1, 10.0},
            "how much wider than the geometric track the wheels act in a turn");
 }

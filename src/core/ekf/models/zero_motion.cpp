@@ -9,11 +9,11 @@ namespace slipnav {
 void ZeroMotionParams::visit(ParameterVisitor& v) {
   v.number("velocity_std_mps", velocity_std_mps, {1e-7, 1.0},
            "1σ of the velocity at standstill before anything is learned [m/s]");
-  v.number("least_velocity_std_mps", least_velocity_std_mps, {1e-7, 1.0}, "least 1σ that it can learn [m/s]");
-  v.number("largest_velocity_std_mps", largest_velocity_std_mps, {1e-7, 1.0}, "largest 1σ that it can learn [m/s]");
+  v.number("least_velocity_std_mps", least_velocity_std_mps, {1e-7, 1.0}, "smallest 1σ that can be learned [m/s]");
+  v.number("largest_velocity_std_mps", largest_velocity_std_mps, {1e-7, 1.0}, "largest 1σ that can be learned [m/s]");
   v.number("adaptation_samples", adaptation_samples, {1.0, 1e6}, "memory of the learning, in updates");
   v.number("rate_std_deg_per_h", rate_std_deg_per_h, {0.0, 1e6},
-           "1σ of the rate at standstill beside the gyro's own noise [°/h]");
+           "1σ of the rate at standstill in addition to the gyro noise [°/h]");
 }
 
 Tremor::Tremor(const ZeroMotionParams& params)

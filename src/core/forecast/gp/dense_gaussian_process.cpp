@@ -13,18 +13,18 @@
 namespace slipnav {
 namespace {
 
-// Tried in turn until the factorisation succeeds. Noise at the level that the fits allow never needs any but the first.
+// Tried in turn until the factorization succeeds. Noise at the level allowed by the fits never needs any but the first.
 constexpr std::array<double, 4> kRelativeJitters = {0.0, 1e-12, 1e-10, 1e-8};
 
-// A sample whose covariance with a prediction is below this share of the prior variance tells nothing in double
-// precision, even summed over thousands of samples. Taken as zero: what follows would be slow on denormal numbers.
+// A sample whose covariance with a prediction is below this share of the prior variance contributes nothing in double
+// precision, even summed over thousands of samples. Treated as zero: denormal numbers would be slow.
 constexpr double kNegligibleCorrelation = 1e-20;
 
-// Two columns are multiples of each other when they differ by less than this share: a few times the rounding of an
-// exponential. What a prediction has from the samples then differs by less than 1e-9 of itself.
+// Two columns are multiples of each other if they differ by less than this share: a few times the rounding of an
+// exponential. The contribution of the samples to a prediction then differs by less than 1e-9 of itself.
 constexpr double kSameShape = 1e-14;
 
-// The f with column = f · other, or zero where there is none.
+// The f with column = f · other, or zero if there is none.
 double multipleOf(const Eigen::Ref<const Eigen::VectorXd>& other, const Eigen::Ref<const Eigen::VectorXd>& column) {
   Eigen::Index largest = 0;
   const double size = other.cwiseAbs().maxCoeff(&largest);
@@ -149,7 +149,7 @@ void DenseGaussianProcess::likelihoodGradient(Eigen::VectorXd& gradient) {
   for (Eigen::Index j = 0; j < n; ++j) {
     Eigen::Ref<Eigen::VectorXd> weights = weights_.segment(row, n - j);
     weights = precision_.col(j).tail(n - j) - alpha_(j) * alpha_.tail(n - j);
-    weights(0) *= 0.5;  // entries below the diagonal stand for two
+    weights(0) *= 0.5;  // entries below the diagonal count twice
     diagonal += weights(0);
     row += n - j;
   }
@@ -180,8 +180,8 @@ double DenseGaussianProcess::crossCovariance(double time, Kernel::Out out) const
 LatentPrediction DenseGaussianProcess::predict(const Eigen::VectorXd& times) const {
   requireConditioned();
   LatentPrediction prediction{Eigen::VectorXd::Zero(times.size()), Eigen::VectorXd(times.size())};
-  // Far from the samples the posterior is the prior; and where all components but one of a single state have faded, a
-  // column is a multiple of the one before. Only the others are solved for, together.
+  // Far from the samples the posterior is the prior; and where all components but a single-state one have faded, a
+  // column is a multiple of the previous one. Only the others are solved for, together.
   Eigen::MatrixXd cross(times_.size(), times.size());
   std::vector<std::pair<Eigen::Index, double>> sources;  // column solved for, and its factor
   sources.reserve(static_cast<std::size_t>(times.size()));

@@ -1,5 +1,5 @@
 #pragma once
-/// Exact Gaussian process regression by Cholesky factorisation: the reference, O(N³) per likelihood.
+/// Exact Gaussian process regression by Cholesky factorization: the reference, O(N³) per likelihood.
 ///
 /// Source: Rasmussen & Williams, algorithm 2.1 and equation 5.9.
 
@@ -41,7 +41,7 @@ class DenseGaussianProcess : public GaussianProcess {
   Eigen::MatrixXd inverse_factor_;  ///< L⁻¹
   Eigen::MatrixXd precision_;       ///< lower triangle: inverse of the covariance of the samples
   Eigen::VectorXd alpha_;           ///< K⁻¹ y
-  Eigen::MatrixXd derivatives_;     ///< of the lower triangle's columns, one below the other, by latent parameter
+  Eigen::MatrixXd derivatives_;     ///< of the lower triangle's columns, stacked, by latent parameter
   Eigen::VectorXd weights_;         ///< K⁻¹ − α αᵀ in the same order
   double relative_jitter_ = 0.0;
   bool conditioned_ = false;

@@ -1,8 +1,8 @@
 #pragma once
 /// Gaussian process regression of a function of time: y(t) = f(t) + ε, f ~ GP(0, k), ε ~ N(0, σₙ²).
 ///
-/// Times are seconds since the origin of the process, which the caller has chosen and subtracted: a kernel that is not
-/// stationary, like the Brownian one, depends on it. The hyperparameters are one vector of natural logarithms: those
+/// Times are seconds since the origin of the process, which the caller has chosen and subtracted: a nonstationary
+/// kernel, like the Brownian one, depends on it. The hyperparameters are one vector of natural logarithms: those
 /// of the kernel in its order, then log σₙ².
 ///
 /// Two implementations: DenseGaussianProcess, exact for every kernel, and StateSpaceGaussianProcess, whose cost grows
@@ -27,11 +27,11 @@ class GaussianProcess {
   virtual Eigen::Index parameterCount() const = 0;
 
   /// Takes the samples: `times` strictly increasing and not negative, everything finite, at least one sample.
-  /// Throws std::invalid_argument otherwise. What was conditioned before is lost.
+  /// Throws std::invalid_argument otherwise. Earlier conditioning is lost.
   virtual void setSamples(const Eigen::VectorXd& times, const Eigen::VectorXd& values) = 0;
 
-  /// −log p(y | θ); `gradient`, when given, becomes its derivative with respect to the log hyperparameters.
-  /// Throws std::runtime_error when the covariance of the samples is not positive definite.
+  /// −log p(y | θ); `gradient`, if given, becomes its derivative with respect to the log hyperparameters.
+  /// Throws std::runtime_error if the covariance of the samples is not positive definite.
   virtual double negativeLogLikelihood(const Eigen::VectorXd& log_parameters, Eigen::VectorXd* gradient) = 0;
 
   /// Conditions on the samples with these hyperparameters; predictions refer to the last call.

@@ -9,7 +9,7 @@
 namespace slipnav {
 namespace {
 
-/// The objective in the optimiser's coordinates, (θ − start)/typical step, remembering the best point met.
+/// The objective in the optimizer's coordinates, (θ − start)/typical step, remembering the best point so far.
 class Objective {
  public:
   Objective(GaussianProcess& process, const std::vector<LogPrior>& priors, const Eigen::VectorXd& start)
@@ -33,7 +33,7 @@ class Objective {
     return x;
   }
 
-  /// What a full Newton step from the start would gain, were the steps standard deviations and uncorrelated.
+  /// Gain of a full Newton step from the start, if the steps were standard deviations and uncorrelated.
   double gainToExpect() {
     const std::vector<double> x(priors_.size(), 0.0);
     std::vector<double> gradient(priors_.size());
@@ -99,7 +99,7 @@ FitOutcome minimize(Objective& objective, std::size_t dimension, const FitSettin
   }
 }
 
-/// Newton steps within bounds with a curvature that they correct.
+/// Newton steps within bounds with a curvature that they update.
 class NewtonSearch {
  public:
   NewtonSearch(GaussianProcess& process, const std::vector<LogPrior>& priors, const Eigen::VectorXd& start,
@@ -161,7 +161,7 @@ class NewtonSearch {
     return step;
   }
 
-  // Takes the step if it gains; in any case it tells the curvature along it.
+  // Takes the step if it gains; in any case it reveals the curvature along it.
   void tryStep(const Eigen::VectorXd& step) {
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(step.size());
     const double value = evaluate(best_ + step, gradient);
@@ -184,7 +184,7 @@ class NewtonSearch {
 
   static constexpr int kMaxSweeps = 1000;
   static constexpr double kStandstill = 1e-9;
-  static constexpr double kLongestStep = 0.5;     // of a logarithm: farther away the curvature is another
+  static constexpr double kLongestStep = 0.5;     // of a logarithm: farther away the curvature differs
   static constexpr double kLeastCurvature = 0.2;  // of the expected one
   static constexpr double kShorter = 2.0;
 

@@ -4,7 +4,7 @@
 ///
 /// The likelihood of a short window has several maxima. One at a length scale below the sampling interval and without
 /// noise interpolates the samples and forecasts nothing, one at infinite length scale explains a trend. The priors and
-/// bounds are what keeps a fit away from them, see hyperparameter_prior.h.
+/// bounds keep a fit away from them, see hyperparameter_prior.h.
 
 #include <Eigen/Core>
 #include <vector>
@@ -13,13 +13,13 @@
 
 namespace slipnav {
 
-/// Prior of one hyperparameter, all in natural logarithms: normal, cut off at the bounds.
+/// Prior of one hyperparameter, all in natural logarithms: normal, truncated at the bounds.
 struct LogPrior {
   double mean = 0.0;
   double stddev = 1.0;
   double lower = 0.0;
   double upper = 0.0;
-  double typical_step = 1.0;  ///< how well the samples tell it, roughly: the unit in which the optimiser walks
+  double typical_step = 1.0;  ///< roughly how well the samples determine it: the unit step of the optimizer
 };
 
 /// When a local fit ends.
@@ -31,11 +31,11 @@ struct FitSettings {
 /// How it ended.
 enum class FitOutcome {
   kConverged,
-  kBudgetSpent,  ///< max_evaluations reached; the best point met is returned
-  kFailed        ///< no finite likelihood, or the optimiser broke off; the start is returned
+  kBudgetSpent,  ///< max_evaluations reached; the best point found is returned
+  kFailed        ///< no finite likelihood, or the optimizer gave up; the start is returned
 };
 
-/// What one local fit has found.
+/// Result of one local fit.
 struct HyperparameterFit {
   FitOutcome outcome = FitOutcome::kFailed;
   Eigen::VectorXd log_parameters;
@@ -51,15 +51,15 @@ Eigen::VectorXd clampToBounds(const Eigen::VectorXd& start, const std::vector<Lo
 double negativeLogPosterior(GaussianProcess& process, const std::vector<LogPrior>& priors,
                             const Eigen::VectorXd& log_parameters, Eigen::VectorXd* gradient);
 
-/// Local fit from `start` (clamped) to the samples that `process` holds. Never throws for numerical reasons; throws
-/// std::invalid_argument when the lengths do not agree.
+/// Local fit from `start` (clamped) to the samples in `process`. Never throws for numerical reasons; throws
+/// std::invalid_argument if the lengths do not agree.
 HyperparameterFit fitHyperparameters(GaussianProcess& process, const std::vector<LogPrior>& priors,
                                      const Eigen::VectorXd& start, const FitSettings& settings);
 
 /// Local fit for an expensive likelihood, from a start near its end with the curvature there: the second derivatives of
-/// −log posterior, positive definite and about right, as a cheaper form of the process has them. Newton steps within
-/// the bounds; each corrects the curvature (BFGS; J. Nocedal, S. Wright, Numerical Optimization, 2006, procedure 18.2).
-/// Ends where the next step promises to gain less than the tolerance. Fails and throws as fitHyperparameters() does.
+/// −log posterior, positive definite and approximately right, from a cheaper form of the process. Newton steps within
+/// the bounds; each updates the curvature (BFGS; J. Nocedal, S. Wright, Numerical Optimization, 2006, procedure 18.2).
+/// Ends when the next step promises to gain less than the tolerance. Fails and throws like fitHyperparameters().
 HyperparameterFit refineHyperparameters(GaussianProcess& process, const std::vector<LogPrior>& priors,
                                         const Eigen::VectorXd& start, const Eigen::MatrixXd& curvature,
                                         const FitSettings& settings);

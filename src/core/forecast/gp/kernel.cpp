@@ -6,13 +6,13 @@
 namespace slipnav {
 namespace {
 
-// Sums and products need the values of one kernel beside those of the other: they work on pieces of this length, on the
-// stack. Both ways to a column cut it alike, since what is left over beside packets of two may be rounded differently.
+// Sums and products need the values of both kernels side by side: they work on pieces of this length, on the
+// stack. Both ways to a column split it alike, since the remainder of packets of two may be rounded differently.
 constexpr Eigen::Index kChunk = 128;
 using Chunk = Eigen::Matrix<double, kChunk, 1>;
 using Array = Eigen::Map<Eigen::ArrayXd>;
 
-// Exponents stop here: e^−600 is nothing beside one, and what it is multiplied with stays clear of denormal numbers,
+// Exponents stop here: e^−600 is negligible beside one, and its products stay clear of denormal numbers,
 // on which the arithmetic is many times slower.
 constexpr double kMinExponent = -600.0;
 

@@ -1,13 +1,13 @@
 #pragma once
 /// Covariance functions of time, as small types that add and multiply.
 ///
-/// The shapes (Brownian, RBF, Matérn) carry no variance of their own: a product has one variance, that of the
-/// ConstantKernel in it, so that every parameter of an expression can be told from the others. For example the kernel
+/// The shapes (Brownian, RBF, Matérn) have no variance of their own: a product has one variance, that of the
+/// ConstantKernel in it, so that every parameter of an expression is identifiable. For example the kernel
 /// of the paper, σ² min(t,t') exp(−(t−t')²/2ℓ²), is ConstantKernel · BrownianKernel · RbfKernel.
 ///
-/// Times are seconds since the origin of the process. Parameters are natural logarithms, in the order in which the
-/// kernels stand in the expression. Kernels work on part of a column of the covariance matrix at a time: that is all
-/// that a symmetric matrix needs, and stays in cache. A column and its derivatives come from the same exponentials.
+/// Times are seconds since the origin of the process. Parameters are natural logarithms, in the order of the
+/// kernels in the expression. Kernels work on part of a column of the covariance matrix at a time: a symmetric matrix
+/// needs no more, and it stays in cache. A column and its derivatives share the same exponentials.
 ///
 /// Source: C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, chapter 4.
 

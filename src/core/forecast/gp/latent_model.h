@@ -15,9 +15,9 @@ namespace slipnav {
 /// Shape of a component's correlation over time.
 enum class Correlation { kConstant, kRbf, kMatern12, kMatern32, kMatern52, kMatern72 };
 
-/// What a component is there for; decides its priors and its name prefix.
+/// Purpose of a component; decides its priors and its name prefix.
 enum class ComponentRole {
-  kSlip,  ///< slip that comes and goes within the window
+  kSlip,  ///< slip that varies within the window
   kBias,  ///< constant over window and horizon
   kSlow,  ///< persists longer than the window
 };

@@ -2,8 +2,8 @@
 /// Stationary correlation functions as linear stochastic differential equations.
 ///
 /// With τ the time over the length scale: dz = F z dτ + L dw, f = hᵀ z, and hᵀ e^{Fτ} P∞ h is the correlation, one at
-/// τ = 0. Matérn shapes are exact. The RBF has no finite state: the reciprocal of its spectral density is expanded to
-/// the sixth order, which leaves an error of at most 0.0043 in the correlation.
+/// τ = 0. Matérn shapes are exact. The RBF has no finite-dimensional state: the reciprocal of its spectral density is
+/// expanded to the sixth order, which leaves an error of at most 0.0043 in the correlation.
 ///
 /// Source: J. Hartikainen, S. Särkkä, Kalman filtering and smoothing solutions to temporal Gaussian process regression
 /// models, IEEE MLSP 2010.
@@ -32,10 +32,10 @@ class MarkovShape {
   /// h.
   const Eigen::VectorXd& output() const { return output_; }
 
-  /// phi = e^{F tau} for tau ≥ 0; phi must be zero before, what is zero in every e^{F tau} is not written.
+  /// phi = e^{F tau} for tau ≥ 0; phi must be zero on entry, since entries that are zero for all tau are not written.
   void transition(double tau, Eigen::Ref<Eigen::MatrixXd> phi) const;
 
-  /// hᵀ e^{F tau} P∞ h for tau ≥ 0: the correlation that the state really has.
+  /// hᵀ e^{F tau} P∞ h for tau ≥ 0: the actual correlation of the state.
   double correlation(double tau) const;
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Products of symmetric matrices with one that has nothing but 2×2 blocks on its diagonal, as the transition of states
-/// that come in conjugate pairs. Blocks above the diagonal mirror those below.
+/// Products of symmetric matrices with one that has only 2×2 blocks on its diagonal, like the transition of states
+/// in conjugate pairs. Blocks above the diagonal mirror those below.
 
 #include <Eigen/Core>
 
@@ -20,7 +20,7 @@ void transformPairs(const Eigen::Matrix<double, D, D>& phi, Eigen::Matrix<double
   }
 }
 
-/// M ← M + F N + N Fᵀ; F is zero but for the states from `first` to `last`, the latter not included.
+/// M ← M + F N + N Fᵀ; F is zero except for the states from `first` to `last`, the latter excluded.
 template <int D>
 void addRateOfPairs(const Eigen::Matrix<double, D, D>& f, const Eigen::Matrix<double, D, D>& n, Eigen::Index first,
                     Eigen::Index last, Eigen::Matrix<double, D, D>& m) {

@@ -1,5 +1,5 @@
 #pragma once
-/// The Kalman filter behind StateSpaceGaussianProcess, of a fixed number of states D for speed. A model with fewer
+/// The Kalman filter behind StateSpaceGaussianProcess, with a fixed number of states D for speed. A model with fewer
 /// states leaves the last ones unused: without output, covariance and transition they stay zero.
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace slipnav {
 
-/// One component of the model and where its states and hyperparameters stand.
+/// One component of the model and the positions of its states and hyperparameters.
 struct MarkovComponent {
   MarkovShape shape;
   bool brownian;
@@ -38,7 +38,7 @@ class StateSpaceFilter {
   Eigen::Index parameterCount() const { return parameter_count_; }
   void setLogParameters(const Eigen::VectorXd& log_parameters);
 
-  /// −log p; leaves the filter at the last sample. With the gradient come the whitened sensitivities.
+  /// −log p; leaves the filter at the last sample. The gradient also yields the whitened sensitivities.
   virtual double run(const Eigen::VectorXd& times, const Eigen::VectorXd& values, Eigen::VectorXd* gradient) = 0;
   /// Expected information of the samples on the log hyperparameters, at the last run with a gradient.
   Eigen::MatrixXd information() const { return whitened_.transpose() * whitened_; }
@@ -58,7 +58,7 @@ class StateSpaceFilter {
   Eigen::MatrixXd whitened_;
 };
 
-/// The filter for components whose states come to at most D.
+/// The filter for components with at most D states in total.
 template <int D>
 class FixedStateSpaceFilter : public StateSpaceFilter {
  public:
@@ -83,7 +83,7 @@ class FixedStateSpaceFilter : public StateSpaceFilter {
     Vector gain = Vector::Zero();
   };
 
-  /// What one component contributes, in the full state.
+  /// Contribution of one component, in the full state.
   struct Block {
     Matrix drift = Matrix::Zero();      ///< F in its rows and columns
     Vector unit_gain = Vector::Zero();  ///< P∞ h in its rows
@@ -120,7 +120,7 @@ FixedStateSpaceFilter<D>::FixedStateSpaceFilter(std::vector<MarkovComponent> com
   has_pairs_ = hasPairs();
 }
 
-// Whether drift, and with it the transition, has nothing but blocks of 2×2 on its diagonal: conjugate pairs of poles,
+// Whether drift, and with it the transition, has only 2×2 blocks on its diagonal: conjugate pairs of poles,
 // and single states. Products with them then go block by block, and those above the diagonal mirror those below.
 template <int D>
 bool FixedStateSpaceFilter<D>::hasPairs() const {

@@ -29,7 +29,7 @@ Eigen::Index stateCount(const std::vector<MarkovComponent>& components) {
   return components.empty() ? 0 : components.back().first_state + components.back().shape.dimension();
 }
 
-// Filters of two, four, six and eight states; the smallest that holds the components is taken.
+// Filters of two, four, six and eight states; the smallest sufficient one is used.
 template <int D = 2>
 std::unique_ptr<StateSpaceFilter> makeFilter(std::vector<MarkovComponent> components) {
   if constexpr (D > kMaxStates) {
@@ -61,8 +61,8 @@ void StateSpaceFilter::setLogParameters(const Eigen::VectorXd& log_parameters) {
   noise_variance_ = std::exp(log_parameters(parameter_count_ - 1));
 }
 
-// Scaling all variances together scales the covariance, whose derivative is known: S changes by itself, innovations not
-// at all. The noise is what the components leave of that.
+// Scaling all variances together scales the covariance, whose derivative is known: only S changes, not the
+// innovations. The noise derivative is what the components leave of that.
 void StateSpaceFilter::addNoise(double count_less_chi_square, Eigen::VectorXd& gradient) {
   const Eigen::Index noise = parameter_count_ - 1;
   const Eigen::Index samples = whitened_.rows() / 2;

@@ -19,7 +19,7 @@ class PlacementTest : public ::testing::Test {
  protected:
   PlacementTest() { filter_.initialise(drive_.initial); }
 
-  /// Mechanises and filters the first seconds of the drive.
+  /// Mechanizes and filters the first seconds of the drive.
   void run(double until_s) {
     InsEngine ins(Planet::byName("earth"), setup_.imu_input);
     ins.initialise(drive_.initial.nav);

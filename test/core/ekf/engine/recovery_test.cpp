@@ -1,4 +1,4 @@
-/// An estimate that has left its wheels behind begins anew.
+/// An estimate that has run away from its wheels restarts.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ Config config() {
   return config;
 }
 
-/// The first instant after it has begun anew.
+/// The first instant after the restart.
 TEST(Recovery, TakesVelocityFromTheWheelsAndLevelFromGravity) {
   RecordedDrive drive = recordDrive(config());
   const NavigationState truth = drive.initial.nav;

@@ -17,7 +17,7 @@
 namespace slipnav::test {
 namespace {
 
-/// What a model is linearised about, and what the IMU said.
+/// What a model is linearized about, and what the IMU said.
 struct Point {
   NavigationState nav;
   VehicleState vehicle;
@@ -70,7 +70,7 @@ void expectJacobian(const std::string& name, const Model& model, const std::vect
     const Point point = randomPoint(random);
     const Eigen::MatrixXd numeric = numericJacobian(model, point);
     const Eigen::MatrixXd H = model(point).H;
-    // the turn of the planet in the lever arm's velocity, ω_ie l ≈ 1e-4 m/s per radian, is left out of H
+    // the planet's rotation in the lever-arm velocity, ω_ie l ≈ 1e-4 m/s per radian, is neglected in H
     EXPECT_LT((H - numeric).cwiseAbs().maxCoeff(), 1e-3) << name << "\n" << H << "\nnumerically\n" << numeric;
     for (const int index : seen) {
       EXPECT_GT(numeric.col(index).cwiseAbs().maxCoeff(), 0.01) << name << ", state " << index;
@@ -115,6 +115,19 @@ TEST(MeasurementJacobian, Vertical) {
   sim::RandomStream random(2, "columns");
   const Point point = randomPoint(random);
   EXPECT_DOUBLE_EQ(model(point).H(0, kMountPitch), -motionOf(point).v_eb_b.x());
+}
+
+TEST(MeasurementJacobian, ConstraintThatDoesNotSeeTheAttitudeHasNoColumnsOfIt) {
+  VelocityJacobian H_v;
+  for (int column = 0; column < kErrorStates; ++column) {
+    H_v.col(column).setConstant(1.0 + column);
+  }
+  NonholonomicParams params;
+  EXPECT_EQ(constraintJacobian(params, H_v), H_v);
+  params.see_attitude = false;
+  const VelocityJacobian H = constraintJacobian(params, H_v);
+  EXPECT_TRUE(H.middleCols<3>(kAttitude).isZero(0.0));
+  EXPECT_EQ(H.rightCols<kErrorStates - 3>(), H_v.rightCols<kErrorStates - 3>());
 }
 
 TEST(MeasurementJacobian, ZeroVelocity) {

@@ -1,10 +1,10 @@
 #pragma once
 /// Noise of an IMU from its own samples, while driving and at rest, before any filter.
 ///
-/// Third differences of block means are blind to a motion that is smooth over four blocks; of white noise of density N²
+/// Third differences of block means are blind to motion that is smooth over four blocks; for white noise of density N²
 /// (PSD) they have the variance 20 N²/(m Δt) for blocks of m samples of Δt, the Hadamard variance (third-order Allan
-/// variance: IEEE Std 1139). What shakes about a place, or moves the rover, gives more at some m; white noise gives the
-/// same N² at all. The smallest over m = 1, 2, 4, 8 is a ceiling for what integrates like white noise.
+/// variance: IEEE Std 1139). Vibration about a fixed position, or rover motion, gives more at some m; white noise gives
+/// the same N² at all. The smallest over m = 1, 2, 4, 8 is an upper bound on what integrates like white noise.
 
 #include <array>
 
@@ -21,7 +21,7 @@ struct ImuNoiseDensity {
 /// Keeps running means over a few seconds.
 class ImuNoiseMeter {
  public:
-  /// Samples are missing, or the rover's estimate starts: blocks begin again, what was learned stays.
+  /// Samples are missing, or the rover's estimate starts: blocks restart, what was learned stays.
   void interrupt();
   void reset() { *this = ImuNoiseMeter(); }
 
@@ -40,10 +40,10 @@ class ImuNoiseMeter {
     double block_s = 0.0;  ///< length of the newest whole block
     int samples = 0;
     std::array<Vector6, 3> before;  ///< means of the last blocks, newest first
-    int blocks = 0;                 ///< of them that count
+    int blocks = 0;                 ///< number of valid ones
     Vector6 density = Vector6::Zero();
-    Vector6 recent = Vector6::Zero();  ///< the same of the last moment: shaking begins at once
-    double weight_s = 0.0;             ///< time that `density` is the mean of
+    Vector6 recent = Vector6::Zero();  ///< the same over the last moment: vibration starts abruptly
+    double weight_s = 0.0;             ///< averaging time of `density`
   };
   static constexpr int kScales = 4;
 

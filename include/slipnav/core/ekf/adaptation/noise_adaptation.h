@@ -1,5 +1,5 @@
 #pragma once
-/// What the filter learns of noise while driving: which innovation tells of which noise, and what follows for Q and R.
+/// What the filter learns about noise while driving: which innovation informs which noise, and the resulting Q and R.
 
 #include "slipnav/core/ekf/adaptation/imu_doubt.h"
 #include "slipnav/core/ekf/adaptation/imu_noise_meter.h"
@@ -14,14 +14,14 @@ namespace slipnav {
 struct Innovation1 {
   double residual = 0.0;            ///< r
   double variance = 0.0;            ///< S
-  double by_persistent_slip = 0.0;  ///< the part of S that the slow or side slip explains, see explainedBy()
+  double by_persistent_slip = 0.0;  ///< the part of S explained by the slow or side slip, see explainedBy()
 };
 
-/// The part of the variance of H δx that the error of one state explains: (H P e)²/P(e, e). When a rover that slips
-/// stops, this is how a wrong persistent slip shows: as velocity.
+/// The part of the variance of H δx explained by the error of one state: (H P e)²/P(e, e). When a slipping rover
+/// stops, this is how a wrong persistent slip shows up: as velocity.
 double explainedBy(int state, const Measurement::Jacobian& H, const ErrorCovariance& P);
 
-/// Holds the factors on configured noise, the shaking of the IMU, and what has been added to P since a measurement.
+/// Holds the factors on configured noise, the IMU vibration, and what has been added to P since a measurement.
 class NoiseAdaptation {
  public:
   NoiseAdaptation(const NoiseScaleParams& params, const ImuNoiseParams& imu, double slope_slip);
@@ -30,28 +30,28 @@ class NoiseAdaptation {
   /// Samples of the IMU are missing.
   void interrupt() { meter_.interrupt(); }
 
-  /// Slip of the ground under a step, and its noise and that of the shaken IMU, into a transition.
-  /// @param state at the end of the step; @param slow_slip that the drive has shown, 0 for none; @param way_m of the
+  /// Adds slip of the ground under a step, its noise and that of IMU vibration to a transition.
+  /// @param state at the end of the step; @param slow_slip learned in this drive, 0 for none; @param way_m of the
   /// wheels' surface in it
   void addNoise(const ErrorDynamics& dynamics, const InsStep& step, const NavigationState& state, double slow_slip,
                 double way_m, ErrorTransition& transition);
 
-  /// Slip of the ground in steady state, as it was in the last step.
+  /// Steady-state slip of the ground, as of the last step.
   const GroundStep& ground() const { return ground_; }
   NoiseFactors factors() const;
-  /// Density of the gyros' noise, with all that shakes them, mean over the axes [rad²/s].
+  /// Noise density of the gyros including vibration, mean over the axes [rad²/s].
   double gyroDensity() const;
 
-  /// A forward speed was compared.
+  /// A forward speed has been compared with its prediction.
   void learnForward(const WheelOdometryParams& params, const WheelInterval& wheels, const Innovation1& innovation);
-  /// A mean lateral or vertical speed was compared.
+  /// A mean lateral or vertical speed has been compared with its prediction.
   /// @param own_variance R of the measurement; @param aside_n the vehicle's y axis, unit, north-east-down
   void learnLateral(double own_variance, const Innovation1& innovation, const Vector3& aside_n);
   void learnVertical(double own_variance, const Innovation1& innovation);
   void constraintsUsed();
 
  private:
-  /// Variance that went into states since a measurement.
+  /// Variance added to states since the last measurement.
   struct Since {
     double fast_slip = 0.0;
     Vector3 vibration_b = Vector3::Zero();  ///< of the velocity [m²/s²]
@@ -73,7 +73,7 @@ class NoiseAdaptation {
   GroundStep ground_;
   Since forward_;
   Since constraints_;
-  double way_m_ = 0.0;  ///< since the factors have faded
+  double way_m_ = 0.0;  ///< since the factors last faded
 };
 
 }  // namespace slipnav

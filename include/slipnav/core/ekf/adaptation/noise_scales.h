@@ -1,13 +1,13 @@
 #pragma once
 /// How much larger or smaller each kind of noise is than configured, learned from innovations.
 ///
-/// The logarithms θ of the factors on the configured variances are Gaussian, N(0, Σ₀) where nothing is known, and
-/// forget over the way driven. An innovation r of predicted variance S(θ) = S_rest + Σ Cᵢ exp(θᵢ) has the
+/// The logarithms θ of the factors on the configured variances are Gaussian, initially N(0, Σ₀), and
+/// fade over the distance driven. An innovation r of predicted variance S(θ) = S_rest + Σ Cᵢ exp(θᵢ) has the
 /// log-likelihood −½ (ln S + r²/S); its maximum a posteriori along Σg, gᵢ = Cᵢ/S, is the new θ, and ½ggᵀ (Fisher
-/// information of a variance) joins Σ⁻¹. What an innovation is made of decides what it can say: where Cᵢ is small
-/// against S, θᵢ stays. Covariance matching after R. K. Mehra, IEEE TAC 17(5), 1972; recursive in the manner of S.
-/// Särkkä, A. Nummenmaa, IEEE TAC 54(3), 2009, with a log-normal in place of the inverse gamma, so that noises that
-/// share an innovation share it.
+/// information of a variance) is added to Σ⁻¹. The composition of an innovation decides what it can say: where Cᵢ is
+/// small compared with S, θᵢ does not move. Covariance matching after R. K. Mehra, IEEE TAC 17(5), 1972; recursive as
+/// in S. Särkkä, A. Nummenmaa, IEEE TAC 54(3), 2009, with a log-normal in place of the inverse gamma, so that noises
+/// that share an innovation share its information.
 
 #include "slipnav/core/base/types.h"
 #include "slipnav/core/parameters/parameter_visitor.h"
@@ -22,7 +22,7 @@ enum NoiseKind : int {
   kLateralNoise,    ///< sway of the body against its path
   kSideSlipNoise,   ///< side slip that persists
   kVerticalNoise,   ///< heave and pitch of the body against its path
-  kVibrationNoise,  ///< the part of the IMU's shaking that integrates like white noise
+  kVibrationNoise,  ///< the fraction of the IMU vibration that integrates like white noise
   kNoiseKinds
 };
 
@@ -44,13 +44,13 @@ class NoiseScales {
  public:
   explicit NoiseScales(const NoiseScaleParams& params);
 
-  /// On the configured variance; of kVibrationNoise: the part of the shaking that is white, at most 1.
+  /// On the configured variance; for kVibrationNoise: the white fraction of the vibration, at most 1.
   double factor(NoiseKind kind) const { return factor_(kind); }
 
-  /// The rover has gone `way_m`: what was learned of the ground behind says less about the one ahead.
+  /// The rover has driven `way_m`: what was learned about the ground behind says less about the ground ahead.
   void fade(double way_m);
 
-  /// @param shares what each noise, at its present factor, contributes to `variance`
+  /// @param shares contribution of each noise, at its present factor, to `variance`
   /// @param squared the innovation squared, in the units of `variance`
   void learn(const NoiseVector& shares, double squared, double variance);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// What goes into the filter beside mechanised steps, and what comes out of it.
+/// Inputs of the filter besides mechanized steps, and its outputs.
 
 #include <array>
 #include <cstdint>
@@ -19,18 +19,18 @@ struct InitialState {
   VehicleState vehicle;
   ErrorCovariance P = ErrorCovariance::Identity();
   Geodetic origin;               ///< of the map frame
-  double tremor_variance = 0.0;  ///< of the velocity at standstill as learned so far [m²/s²]; 0: not yet
+  double tremor_variance = 0.0;  ///< learned variance of the velocity at standstill [m²/s²]; 0: not learned yet
 };
 
-/// A position, and maybe a heading, that somebody knows better than the filter.
+/// A position, and possibly a heading, from outside that overrides the filter's.
 struct Placement {
   Geodetic position;  ///< of the IMU
   double position_std_m = 0.0;
-  std::optional<double> heading_rad;  ///< clockwise from north; the present one stays without
+  std::optional<double> heading_rad;  ///< clockwise from north; if absent the present one stays
   double heading_std_rad = 0.0;
 };
 
-/// Mean wheel motion over the interval that ends at `stamp`, whatever message it came in.
+/// Mean wheel motion over the interval that ends at `stamp`, from whichever message.
 struct WheelMotion {
   Nanoseconds stamp = 0;
   PlanarMotion motion;
@@ -42,7 +42,7 @@ struct WheelMotion {
 WheelMotion toWheelMotion(const WheelGeometry& geometry, const WheelSample& sample);
 WheelMotion toWheelMotion(const SpeedSample& sample);
 
-/// The kinds of measurement that are gated and counted apart.
+/// The kinds of measurement that are gated and counted separately.
 enum Component : int {
   kForwardSpeed = 0,
   kYawRate,
@@ -57,24 +57,24 @@ enum Component : int {
 
 const char* componentName(Component component);
 
-/// What became of one kind of measurement.
+/// Results of one kind of measurement.
 struct ComponentStatus {
   std::uint64_t accepted = 0;
   std::uint64_t rejected = 0;
-  std::uint64_t opened = 0;        ///< of the accepted ones, those that the covariance was opened for
-  double nis_sum = 0.0;            ///< of the accepted ones, each divided by its degrees of freedom
+  std::uint64_t opened = 0;        ///< accepted ones for which the covariance was inflated
+  double nis_sum = 0.0;            ///< over the accepted ones, each divided by its degrees of freedom
   double last_nis = 0.0;           ///< likewise, accepted or not
   Nanoseconds rejected_since = 0;  ///< 0 while the last one was accepted
 
   std::uint64_t measured() const { return accepted + rejected; }
 };
 
-/// The filter's answer for the end of one step.
+/// The filter's estimate at the end of one step.
 struct Estimate {
   std::uint64_t sequence = 0;
   NavigationState nav;
-  Vector3 f_ib_b = Vector3::Zero();      ///< bias-free mean specific force of the step [m/s²]
-  Vector3 omega_ib_b = Vector3::Zero();  ///< bias-free mean rate of the step [rad/s]
+  Vector3 f_ib_b = Vector3::Zero();      ///< bias-corrected mean specific force of the step [m/s²]
+  Vector3 omega_ib_b = Vector3::Zero();  ///< bias-corrected mean rate of the step [rad/s]
   VehicleState vehicle;
   NoiseFactors noise_factors;  ///< learned, see NoiseScales
   bool stationary = false;

@@ -1,10 +1,10 @@
 #pragma once
-/// The error-state extended Kalman filter: owns the covariance, consumes mechanised steps in order, applies wheel,
-/// non-holonomic and zero updates at the stamps of the wheel samples, and tells the mechanisation what to correct.
+/// The error-state extended Kalman filter: owns the covariance, consumes mechanized steps in order, applies wheel,
+/// non-holonomic and zero updates at the stamps of the wheel samples, and sends corrections to the mechanization.
 ///
-/// A step is processed only when it is certain which wheel samples count inside it: when all of them are known up to
-/// one at or after its end, when it ends before the next one is due, or when the IMU has gone on for `max_wait_s`.
-/// Where wheel samples are further apart than usual, one may still be on its way. What is computed therefore depends on
+/// A step is processed once it is certain which wheel samples belong to it: when all of them are known up to
+/// or past its end, when it ends before the next one is due, or when the IMU has advanced by `max_wait_s`.
+/// Where wheel samples are further apart than usual, one may still be on its way. The result therefore depends on
 /// the stamps, not on the order of arrival.
 
 #include <algorithm>
@@ -37,45 +37,45 @@ namespace slipnav {
 
 class FilterHistory;
 
-/// Single-threaded; nothing is allocated once its queues have their size.
+/// Single-threaded; no allocation once its queues have reached their size.
 class FilterEngine {
  public:
   using EstimateSink = std::function<void(const Estimate&, const ErrorCovariance&)>;
 
   FilterEngine(const Planet& planet, const FilterSetup& setup);
 
-  /// Starts anew from `initial`. Wheel samples that have come already and are later than it are kept.
+  /// Restarts from `initial`. Wheel samples already received that are later than it are kept.
   void initialise(const InitialState& initial);
   /// Drops everything.
   void reset();
   bool isInitialised() const { return initialised_; }
 
-  /// Takes over gates, noise of measurements and limits of standstill for all steps that are yet to be processed. The
-  /// rest of the setup has to be that of the constructor.
+  /// Replaces gates, measurement noise and standstill limits for all steps not yet processed. The
+  /// rest of the setup must equal that of the constructor.
   void retune(const FilterSetup& setup);
 
-  /// Tells `sink` of every innovation from now on.
+  /// Passes every innovation to `sink` from now on.
   void onInnovation(InnovationSink sink) { on_innovation_ = std::move(sink); }
 
-  /// Tells `history` of everything from the next start on, for a smoother. It changes no bit of the estimate.
+  /// Records everything from the next start on in `history`, for a smoother. It changes no bit of the estimate.
   void keepHistory(std::shared_ptr<FilterHistory> history) { history_ = std::move(history); }
 
-  /// Takes a step; one of an old epoch, or out of sequence, is ignored.
+  /// Adds a step; one of an old epoch, or out of sequence, is ignored.
   void push(const InsStep& step);
-  /// Takes a wheel sample; false when it is not finite, repeated, or lies before what has been processed.
+  /// Adds a wheel sample; false if it is not finite, repeated, or before what has been processed.
   bool push(const WheelMotion& wheels);
-  /// Takes a satellite position or velocity; false as above.
+  /// Adds a satellite position or velocity; false as above.
   bool push(const AntennaFix& fix);
 
-  /// Puts the state that was processed last to another place. What is known of velocity in body axes, tilt, biases and
-  /// slip stays. Throws std::invalid_argument for impossible numbers, and when nothing has been processed yet.
+  /// Moves the last processed state to another place. Knowledge of body-frame velocity, tilt, biases and
+  /// slip is kept. Throws std::invalid_argument for impossible numbers, and when nothing has been processed yet.
   Correction place(const Placement& placement);
 
-  /// The state that was processed last, for a mechanisation that has lost its own and begins anew from it. Nothing when
+  /// The last processed state, for a mechanization that has lost its own and restarts from it. Nothing if
   /// nothing has been processed yet.
   std::optional<Correction> reissue();
 
-  /// Says that no wheel sample and no fix up to `stamp` is still to come.
+  /// Declares that no wheel sample and no fix up to `stamp` is still to come.
   void assumeCompleteUpTo(Nanoseconds stamp) {
     wheels_.assumeCompleteUpTo(stamp);
     fixes_complete_until_ = std::max(fixes_complete_until_, stamp);
@@ -83,17 +83,17 @@ class FilterEngine {
 
   /// The stamp up to which wheel samples are known without a hole between them.
   Nanoseconds wheelsKnownUntil() const { return wheels_.knownUntil(); }
-  /// Likewise for fixes, which are waited for with `gnss.use: always` alone; without, they are always known.
+  /// Likewise for fixes, which are waited for only with `gnss.use: always`; otherwise they are always known.
   Nanoseconds fixesKnownUntil() const;
 
-  /// Processes steps in order until none is certain, or until a measurement corrects the state. Then the correction has
-  /// to reach the mechanisation, whose new steps come back by push().
+  /// Processes steps in order until none is certain, or until a measurement corrects the state. The correction must
+  /// then reach the mechanization, whose new steps come back by push().
   std::optional<Correction> advance(const EstimateSink& sink);
 
-  /// All that is needed to go on elsewhere, but for the origin of the map frame.
+  /// Everything needed to resume elsewhere, except the origin of the map frame.
   InitialState snapshot() const;
 
-  /// At the end of the step that was processed last.
+  /// At the end of the last processed step.
   const ErrorCovariance& covariance() const { return P_; }
   const NavigationState& state() const { return state_; }
   const ErrorTransition& lastTransition() const { return transition_; }
@@ -102,7 +102,7 @@ class FilterEngine {
   const WheelMonitor& wheelMonitor() const { return wheel_monitor_; }
   /// Whether the rover stands while its wheels turn, as of the last wheel sample.
   bool isStuck() const { return stuck_.isStuck(); }
-  /// How often the estimate had run away from its wheels and was begun anew.
+  /// How often the estimate ran away from its wheels and was restarted.
   std::uint64_t recoveries() const { return recoveries_; }
 
  private:
@@ -165,22 +165,22 @@ class FilterEngine {
   RingQueue<InsStep> steps_;
   WheelQueue wheels_;
   RingQueue<AntennaFix> fixes_;  ///< not yet applied, by stamp
-  Cadence fix_cadence_;          ///< of those that have been worked off
+  Cadence fix_cadence_;          ///< of the processed ones
   Nanoseconds fixes_complete_until_ = 0;
-  Nanoseconds used_fix_ = 0;  ///< stamp of the newest one that passed, 0: none
+  Nanoseconds used_fix_ = 0;  ///< stamp of the newest one that passed the gate, 0: none
   SlippingSpeed slipping_speed_;
-  double last_forward_mps_ = 0.0;    ///< predicted, mean over the wheel interval before
+  double last_forward_mps_ = 0.0;    ///< predicted, mean over the previous wheel interval
   double way_since_wheels_m_ = 0.0;  ///< of the surface, in the last wheel interval
-  double slow_envelope_ = 0.0;       ///< of the variance of slow slip in steady state
+  double slow_envelope_ = 0.0;       ///< of the steady-state variance of slow slip
   double side_envelope_ = 0.0;
   LastingSlip lasting_slip_;
   double slipping_way_m_ = 0.0;     ///< over which wheel speeds have contradicted
   double surface_speed_mps_ = 0.0;  ///< of the wheels, last sample
-  MeanMotion average_;              ///< over the wheel interval that is open
+  MeanMotion average_;              ///< over the open wheel interval
   MeanMotion constraint_average_;   ///< over the wheel intervals since the last constraint
   Estimate estimate_;
   InnovationSink on_innovation_;
-  std::shared_ptr<FilterHistory> history_;  ///< where nobody smooths: none
+  std::shared_ptr<FilterHistory> history_;  ///< null unless the drive is to be smoothed
 };
 
 }  // namespace slipnav

@@ -1,5 +1,5 @@
 #pragma once
-/// Everything the filter is made from.
+/// Everything the filter is configured with.
 
 #include <string>
 #include <vector>
@@ -46,7 +46,7 @@ struct FilterSetup {
   WheelMonitorParams wheel_monitor;
   FixParams gnss;
   std::vector<WheelParams> wheels;
-  Vector3 lever_imu_to_reference_b = Vector3::Zero();  ///< from the IMU to the vehicle's centre of turn [m]
+  Vector3 lever_imu_to_reference_b = Vector3::Zero();  ///< from the IMU to the vehicle's center of turn [m]
   Vector3 lever_imu_to_antenna_b = Vector3::Zero();    ///< from the IMU to the antenna of gps/fix [m]
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Several measurements of one instant: each passes its own gate, all that pass are to update the state together.
+/// Simultaneous measurements: each passes its own gate, all that pass update the state together.
 
 #include <array>
 #include <optional>
@@ -10,17 +10,17 @@
 
 namespace slipnav {
 
-/// Up to four measurements of one instant.
+/// Up to four simultaneous measurements.
 class MeasurementSet {
  public:
-  /// A measurement and the name under which it is counted.
+  /// A measurement and the name it is counted under.
   struct Block {
     Component component = kForwardSpeed;
     Measurement measurement{1};
     double variance_factor = 1.0;
   };
 
-  /// @param variance_factor what the variance counts in the update, where it was gated by that of the measurement
+  /// @param variance_factor on the variance used in the update, relative to that used by the gate
   void add(Component component, const Measurement& measurement, double variance_factor = 1.0) {
     blocks_[size_++] = {component, measurement, variance_factor};
   }
@@ -32,20 +32,20 @@ class MeasurementSet {
   std::size_t size_ = 0;
 };
 
-/// Gates by chi-square quantiles, and keeps count of what passed and what did not. A measurement that has contradicted
-/// for long is not the outlier, the state is: then the covariance is opened until it is plausible, and it is used.
+/// Gates by chi-square quantiles, and counts what passed and what did not. When a measurement has contradicted
+/// for long, the state is wrong, not the measurement: the covariance is inflated until it is plausible, and it is used.
 class GatedUpdate {
  public:
   explicit GatedUpdate(const FilterParams& params);
 
-  /// Other gates from now on; what has been counted stays.
+  /// Other gates from now on; the counts stay.
   void retune(const FilterParams& params);
 
-  /// @return those that passed, one below the other; nothing where none did. P is opened for what has contradicted for
-  /// long, and untouched otherwise.
+  /// @return those that passed, stacked; nothing if none did. P is inflated for what has contradicted for
+  /// long, and otherwise unchanged.
   std::optional<Measurement> select(MeasurementSet& set, Nanoseconds stamp, ErrorCovariance& P);
 
-  /// Of the normalised innovation squared of so many rows.
+  /// Limit of the normalized innovation squared for this many rows.
   double gate(int rows) const { return gate_[static_cast<std::size_t>(rows)]; }
 
   const ComponentStatus& status(Component component) const { return status_[component]; }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a measurement was against its prediction: the stuff that the likelihood of a configuration is made of.
+/// A measurement against its prediction: the terms of a configuration's likelihood.
 
 #include <functional>
 
@@ -7,14 +7,14 @@
 
 namespace slipnav {
 
-/// One measurement as it was predicted, before the gate and before anything was learned from it.
+/// One measurement as predicted, before the gate and before anything was learned from it.
 struct Innovation {
   Nanoseconds stamp = 0;  ///< of the wheel sample
   Component component = kForwardSpeed;
   InnovationSize size;
 };
 
-/// Who is to have every innovation, also of measurements that are rejected afterwards.
+/// Receives every innovation, including those of measurements that are rejected afterwards.
 using InnovationSink = std::function<void(const Innovation&)>;
 
 }  // namespace slipnav

@@ -1,6 +1,6 @@
 #pragma once
-/// Mean predicted motion over an interval in which the estimate goes on being corrected, and how it depends on the
-/// error that the estimate has at the end.
+/// Mean predicted motion over an interval during which the estimate is corrected, and how it depends on the
+/// error of the estimate at the end.
 
 #include <optional>
 
@@ -9,23 +9,23 @@
 
 namespace slipnav {
 
-/// A measurement of a mean says something about the error now: δv̄ = (1/T) ∫ H(t) Φ(t, now) dt · δx(now). When δx is
-/// corrected, what has been averaged so far is corrected along.
+/// A measurement of a mean says something about the current error: δv̄ = (1/T) ∫ H(t) Φ(t, now) dt · δx(now). When δx is
+/// corrected, the average so far is corrected with it.
 class MeanMotion {
  public:
   /// Starts an interval at `start`; 0: no interval is open.
   void restart(Nanoseconds start);
   Nanoseconds start() const { return average_.start(); }
 
-  /// The error goes on through a step; before that step is added.
+  /// Propagates the error through a step; call before that step is added.
   void propagate(const ErrorTransition& transition);
   /// Adds the part of a step that lies in [from, to].
   /// @param v_eb_b mean velocity of the reference point over the step, body axes; @param H_v of that velocity
   void add(const InsStep& step, const Vector3& v_eb_b, const VelocityJacobian& H_v, Nanoseconds from, Nanoseconds to);
-  /// `error` was taken out of the estimate.
+  /// `error` was removed from the estimate.
   void correct(const ErrorVector& error, const ErrorReset& reset);
 
-  /// Mean over what was added; nothing when that is empty.
+  /// Mean over what was added; nothing if that is empty.
   std::optional<BodyMotion> mean() const { return average_.mean(); }
   /// ∂(mean velocity)/∂(error state now); only where there is a mean.
   VelocityJacobian jacobian() const { return integral_ / average_.mean()->duration_s; }

@@ -1,5 +1,5 @@
 #pragma once
-/// The wheel samples that the filter has yet to work off, in the order of their stamps, and up to when they are known.
+/// The wheel samples that the filter has yet to process, in the order of their stamps, and up to when they are known.
 
 #include "slipnav/core/base/ring_queue.h"
 #include "slipnav/core/ekf/engine/filter_data.h"
@@ -7,7 +7,7 @@
 
 namespace slipnav {
 
-/// Puts samples into order. Which of them count, and when, depends on stamps and on what was taken before alone.
+/// Sorts samples. Which of them count, and when, depends only on stamps and on what was taken before.
 class WheelQueue {
  public:
   /// @param longest_interval_s a longer interval between samples is an outage
@@ -16,24 +16,24 @@ class WheelQueue {
   /// Drops everything; samples wait for a start.
   void clear();
 
-  /// Drops what is not later than `stamp`, from which on everything counts.
-  /// @return whether a sample had that very stamp: the next interval is then known from its beginning
+  /// Drops what is not later than `stamp`, from which everything counts.
+  /// @return whether a sample had exactly that stamp: the next interval is then known from its beginning
   bool start(Nanoseconds stamp);
 
-  /// @param processed_until what lies before is past, once there was a start
-  /// @return false for a sample that is past, or repeated
+  /// @param processed_until anything earlier is too late, once there was a start
+  /// @return false for a sample that is too late or repeated
   bool push(const WheelMotion& wheels, Nanoseconds processed_until);
 
-  /// Says that no sample up to `stamp` is still to come.
+  /// Declares that no sample up to `stamp` is still to come.
   void assumeCompleteUpTo(Nanoseconds stamp);
 
-  /// The stamp up to which samples are known without a hole between them, or none is due.
+  /// The stamp up to which samples are known without a hole, or none is due.
   Nanoseconds knownUntil() const;
 
   /// Whether the next sample counts at `stamp` or before.
   bool hasUpTo(Nanoseconds stamp) const;
 
-  /// Takes that sample; its stamp becomes the time when it counts.
+  /// Takes that sample; its stamp becomes the time at which it counts.
   WheelMotion take();
 
  private:

@@ -6,7 +6,7 @@
 
 namespace slipnav {
 
-/// Means over an interval, at the vehicle's reference point, and the linearisation point at its end.
+/// Means over an interval, at the vehicle's reference point, and the linearization point at its end.
 struct BodyMotion {
   double duration_s = 0.0;
   Vector3 v_eb_b = Vector3::Zero();      ///< of the reference point, IMU axes [m/s]

@@ -1,6 +1,6 @@
 #pragma once
-/// Satellite position and velocity of the antenna (Groves 14.3.1, loosely coupled): for the start, and where that is
-/// wanted, positions while driving.
+/// Satellite position and velocity of the antenna (Groves 14.3.1, loosely coupled): for the start, and optionally
+/// positions while driving.
 
 #include <string>
 #include <variant>
@@ -22,12 +22,12 @@ struct FixParams {
   bool always() const { return use == "always"; }
 };
 
-/// Stamps of fixes that differ by so much are a jump of the clock: receivers are slow.
+/// Fixes whose stamps differ by this much mean that the clock jumped: receivers are slow.
 inline constexpr Nanoseconds kFixJump = 5 * kSecond;
 
-/// What the variance of a fix has to be multiplied by, `interval_s` after the last one that was used: errors of
-/// receivers are alike for a while, and many fixes that share one are worth little more than one. For errors of
-/// first-order Gauss-Markov kind the mean over many fixes then has the right variance: (1 + ρ)/(1 − ρ) with
+/// Factor on the variance of a fix, `interval_s` after the last one used: receiver errors
+/// are correlated, and many fixes that share one are worth little more than one. For first-order
+/// Gauss-Markov errors the mean over many fixes then has the right variance: (1 + ρ)/(1 − ρ) with
 /// ρ = exp(−interval/correlation).
 double repeatedFixFactor(double interval_s, double correlation_s);
 
@@ -38,14 +38,14 @@ struct PositionFix {
   Vector3 variance_ned_m2 = Vector3::Ones();
 };
 
-/// Velocity of the antenna with respect to the planet and its variances, uncorrelated.
+/// Velocity of the antenna relative to the planet and its variances, uncorrelated.
 struct VelocityFix {
   Nanoseconds stamp = 0;
   Vector3 v_ea_n = Vector3::Zero();  ///< north-east-down [m/s]
   Vector3 variance_ned_m2ps2 = Vector3::Ones();
 };
 
-/// Whatever a receiver says, one kind at a time.
+/// Either kind of fix.
 using AntennaFix = std::variant<PositionFix, VelocityFix>;
 
 bool isFinite(const PositionFix& fix);
@@ -53,14 +53,14 @@ bool isFinite(const VelocityFix& fix);
 
 PositionFix toPositionFix(const GnssFix& fix);
 
-/// Antenna position, north-east-down metres, three rows.
-/// @param state at or up to one IMU interval after the fix; its position is carried back to the stamp of the fix
+/// Antenna position, north-east-down meters, three rows.
+/// @param state at or up to one IMU interval after the fix; its position is propagated back to the stamp of the fix
 /// @param lever_b from the IMU to the antenna [m]
 Measurement positionMeasurement(const Planet& planet, const PositionFix& fix, const NavigationState& state,
                                 const Vector3& lever_b);
 
 /// Antenna velocity, north-east-down [m/s], three rows.
-/// @param state as above; its velocity is carried back by the acceleration of its last step
+/// @param state as above; its velocity is propagated back by the acceleration of its last step
 /// @param f_ib_b, omega_ib_b mean specific force [m/s²] and rate [rad/s] of that step, free of the biases in `state`
 Measurement velocityMeasurement(const Planet& planet, const VelocityFix& fix, const NavigationState& state,
                                 const Vector3& f_ib_b, const Vector3& omega_ib_b, const Vector3& lever_b);

@@ -9,7 +9,7 @@
 
 namespace slipnav {
 
-/// Integral of the motion over the interval that is open.
+/// Integral of the motion over the open interval.
 class MotionAverage {
  public:
   /// Starts an interval at `start`; 0: no interval is open.
@@ -18,13 +18,13 @@ class MotionAverage {
 
   /// Adds the part of a step that lies in [from, to], with the step's mean motion.
   /// @param v_eb_b mean velocity of the reference point over the step, body axes
-  /// @return how long that part is [s]
+  /// @return length of that part [s]
   double add(const InsStep& step, const Vector3& v_eb_b, Nanoseconds from, Nanoseconds to);
 
   /// Corrects what was added: the integral of the velocity changes by `travel_b` [m].
   void addTravel(const Vector3& travel_b) { integral_.v_eb_b += travel_b; }
 
-  /// Mean over what was added; nothing when that is empty.
+  /// Mean over what was added; nothing if that is empty.
   std::optional<BodyMotion> mean() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// What has been learned of the noises of wheels and ground, as factors on their configured variances.
+/// What has been learned about wheel and ground noise, as factors on the configured variances.
 
 #include <array>
 

@@ -18,17 +18,22 @@ struct NonholonomicParams {
   double vertical_turn_std_m = 0.03;
   double length_m = 1.0;
   double max_interval_s = 2.0;
+  bool see_attitude = true;
   void visit(ParameterVisitor& v);
 };
 
-/// Both constraints are measured as means over a way long enough for the body to have swayed, pitched and heaved about
-/// its path, so that errors of successive means are about independent. Over a shorter way the variance is that of as
-/// much less information.
-/// @param way_m gone in the interval, at least 0
+/// Both constraints are measured as means over a distance long enough for the body to sway, pitch and heave about
+/// its path, so that errors of successive means are nearly independent. Over a shorter distance the variance is larger
+/// in inverse proportion.
+/// @param way_m driven in the interval, at least 0
 double constraintInformation(const NonholonomicParams& params, double way_m);
 
+/// @param H_v of the mean velocity over the interval. Without `see_attitude` its attitude columns are zero, as in the
+/// paper's H_RC: next to wheel speeds that do depend on the attitude, the heading then seems to be observed.
+VelocityJacobian constraintJacobian(const NonholonomicParams& params, const VelocityJacobian& H_v);
+
 /// Lateral speed of the reference point: v_y + ψ_m v_x − tan β v_x = 0.
-/// @param H_v of motion.v_eb_b; @param factor learned, on the variance
+/// @param H_v of motion.v_eb_b; @param factor learned factor on the variance
 Measurement lateralMeasurement(const NonholonomicParams& params, const BodyMotion& motion, const VelocityJacobian& H_v,
                                const VehicleState& vehicle, double factor);
 
@@ -37,7 +42,7 @@ Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMoti
                                 const VehicleState& vehicle, double factor);
 
 /// Slip angle β = atan2(v_y, v_x) of the reference point in vehicle axes, forward-right-down [rad]. In reverse it is
-/// counted from the backward axis, so that straight driving is zero either way.
+/// measured from the backward axis, so that straight driving is zero either way.
 double slipAngle(const Vector3& v_eb_b, const VehicleState& vehicle);
 
 }  // namespace slipnav

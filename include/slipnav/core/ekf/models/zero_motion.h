@@ -1,5 +1,5 @@
 #pragma once
-/// What standing still tells: zero velocity, and an angular rate that is the planet's own (Groves 15.3).
+/// What standing still reveals: zero velocity, and an angular rate equal to the planet's (Groves 15.3).
 
 #include "slipnav/core/ekf/kalman_update.h"
 #include "slipnav/core/ekf/models/body_motion.h"
@@ -17,13 +17,13 @@ struct ZeroMotionParams {
   void visit(ParameterVisitor& v);
 };
 
-/// How much the rover trembles at standstill: the variance of its velocity, learned from the innovations of zero
-/// velocity updates. E[r²] = H P Hᵀ + R, so R follows r² − H P Hᵀ, weighted by how much of the innovation R explains.
+/// Variance of the rover's velocity at standstill, learned from the innovations of zero-velocity
+/// updates. E[r²] = H P Hᵀ + R, so R follows r² − H P Hᵀ, weighted by how much of the innovation R explains.
 class Tremor {
  public:
   explicit Tremor(const ZeroMotionParams& params);
 
-  /// Other limits and another memory from now on; what was learned stays, within the limits.
+  /// Other limits and memory from now on; what was learned stays, within the limits.
   void retune(const ZeroMotionParams& params);
 
   /// Of the velocity on each axis [m²/s²].
@@ -41,12 +41,12 @@ class Tremor {
   double variance_;
 };
 
-/// v_eb^b = 0, three rows, with the variance of the tremor on each axis. In body axes: a velocity there says nothing
-/// about the heading, wherever the estimate is linearised.
+/// v_eb^b = 0, three rows, each with the standstill variance. In body axes: a velocity there says nothing
+/// about the heading, whatever the point of linearization.
 Measurement zeroVelocityMeasurement(double variance, const NavigationState& state);
 
 /// ω_ib^b = C_n_to_b ω_ie^n, three rows. The noise is that of the gyros averaged over the interval, with
-/// `gyro_noise_density` in rad²/s (angle random walk squared), and what the vehicle's own tremor adds.
+/// `gyro_noise_density` in rad²/s (angle random walk squared), plus the configured rate noise at standstill.
 Measurement zeroAngularRateMeasurement(const ZeroMotionParams& params, double gyro_noise_density,
                                        const BodyMotion& motion, const NavigationState& state,
                                        const Vector3& omega_ie_n);
