@@ -13,6 +13,9 @@ namespace {
 /// Points of the horizon at which the predicted slip's correlation is sampled.
 constexpr int kCorrelationPoints = 61;
 
+/// Of its length, over which side slip is averaged.
+constexpr double kSideSlipShare = 0.5;
+
 /// Below this share of the highest speed the rover is starting or stopping.
 constexpr double kCruisingShare = 0.7;
 
@@ -183,17 +186,38 @@ double Forecaster::cruisingSpeed() const {
 
 void Forecaster::learnSpeedAndSideSlip() {
   double used = 0.0;
-  double angle = 0.0;
-  double angle2 = 0.0;
   for (const Drive& drive : drive_) {
     used += drive.wheel_speed_used ? 1.0 : 0.0;
-    angle += drive.side_slip_rad;
-    angle2 += square(drive.side_slip_rad);
   }
-  const auto count = static_cast<double>(drive_.size());
   outlook_.speed_mps = cruisingSpeed();
-  outlook_.wheel_share = used / count;
-  outlook_.side_slip_std_rad = std::sqrt(std::max(0.0, angle2 / count - square(angle / count)));
+  outlook_.wheel_share = used / static_cast<double>(drive_.size());
+  outlook_.side_slip_std_rad = sideSlipSpread();
+}
+
+/// Scatter of the side slip that lasts. From one interval to the next a body sways without moving the vehicle, so means
+/// over a part of the side slip's own length are compared.
+double Forecaster::sideSlipSpread() const {
+  const double length_m = kSideSlipShare * setup_.vehicle.side_slip_length_m;
+  double sum = 0.0;
+  double sum2 = 0.0;
+  double means = 0.0;
+  double way_m = 0.0;
+  double angle_m = 0.0;
+  for (const Drive& drive : drive_) {
+    const double step_m = std::abs(drive.speed_mps) * params_.wheel_interval_s;
+    way_m += step_m;
+    angle_m += step_m * drive.side_slip_rad;
+    if (way_m >= length_m) {
+      sum += angle_m / way_m;
+      sum2 += square(angle_m / way_m);
+      means += 1.0;
+      way_m = angle_m = 0.0;
+    }
+  }
+  if (means < 2.0) {
+    return degToRad(setup_.vehicle.side_slip_std_deg);
+  }
+  return std::sqrt(std::max(0.0, (sum2 - sum * sum / means) / (means - 1.0)));
 }
 
 void Forecaster::learnGround(const Forecast& forecast) {
@@ -214,18 +238,17 @@ void Forecaster::learnGround(const Forecast& forecast) {
 }
 
 /// The slip in the window is what the filter estimates, and includes its velocity error. So varying slip is at most
-/// what the filter has learned about wheels and ground from its innovations; persistent slip is taken as less or more
-/// than that only as far as it exceeds the velocity error.
+/// what the filter has learned about wheels and ground from its innovations; persistent slip counts as less than that only
+/// as far as the velocity error cannot hide it, and as more wherever it shows.
 void Forecaster::weighAgainstFilter(const Estimate& estimate) {
   const GroundOutlook filter = covariance_.assumption(estimate.noise_factors);
   outlook_.change_std = std::min(outlook_.change_std, filter.change_std);
-  outlook_.side_slip_std_rad = std::min(outlook_.side_slip_std_rad, filter.side_slip_std_rad);
   outlook_.wheel_noise_variance = std::min(outlook_.wheel_noise_variance, filter.wheel_noise_variance);
   const double speed_mps = std::max(std::abs(outlook_.speed_mps), kMinSpeedForSlip_mps);
-  const double unseen = covariance_.forwardVariance(estimate.nav) / square(speed_mps);
+  const double hidden = covariance_.forwardVariance(estimate.nav) / square(speed_mps);
   const double seen = square(outlook_.drift_std);
   const double usual = square(filter.drift_std);
-  outlook_.drift_std = std::sqrt(seen < usual ? std::min(usual, seen + unseen) : std::max(usual, seen - unseen));
+  outlook_.drift_std = std::sqrt(std::max(seen, std::min(usual, seen + hidden)));
 }
 
 std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {

@@ -76,6 +76,7 @@ class Forecaster {
   void weighAgainstFilter(const Estimate& estimate);
   double cruisingSpeed() const;
   void learnSpeedAndSideSlip();
+  double sideSlipSpread() const;
   std::vector<DriveStep> wayAhead(const Estimate& estimate) const;
   void boundError(const std::vector<double>& std_m, ErrorOutlook& error) const;
 
