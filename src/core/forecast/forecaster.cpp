@@ -238,8 +238,8 @@ void Forecaster::learnGround(const Forecast& forecast) {
 }
 
 /// The slip in the window is what the filter estimates, and includes its velocity error. So varying slip is at most
-/// what the filter has learned about wheels and ground from its innovations; persistent slip counts as less than that only
-/// as far as the velocity error cannot hide it, and as more wherever it shows.
+/// what the filter has learned about wheels and ground from its innovations; persistent slip counts as less than that
+/// only as far as the velocity error cannot hide it, and as more wherever it shows.
 void Forecaster::weighAgainstFilter(const Estimate& estimate) {
   const GroundOutlook filter = covariance_.assumption(estimate.noise_factors);
   outlook_.change_std = std::min(outlook_.change_std, filter.change_std);
