@@ -112,7 +112,8 @@ std::optional<Forecast> PaperForecaster::make(const Estimate& estimate, const Er
 
 void PaperForecaster::predictSlip(Forecast& forecast) {
   const auto updates = static_cast<Eigen::Index>(std::lround(params_.horizon_s / params_.wheel_interval_s));
-  const Eigen::VectorXd ahead_s = params_.wheel_interval_s * Eigen::VectorXd::LinSpaced(updates, 1.0, updates);
+  const Eigen::VectorXd ahead_s =
+      params_.wheel_interval_s * Eigen::VectorXd::LinSpaced(updates, 1.0, static_cast<double>(updates));
   forecast.slip = model_.predict(ahead_s.array() + toSeconds(newest_ - window_.begin));
   forecast.slip.times_s = ahead_s;
   forecast.outlook.speed_mps = window_.speed_sum_mps / static_cast<double>(window_.slip.slips.size());
