@@ -256,6 +256,27 @@ TEST_F(ForecasterTest, SlipThatComesAndGoesIsWhatTheFilterHasLearned) {
   EXPECT_GT(drive(on_rough_ground, 150, 0.3).value().outlook.change_std, 1.2 * vehicle.fast_slip_std);
 }
 
+/// A body that sways from one interval to the next moves the vehicle nowhere; a drift to one side over meters does.
+TEST_F(ForecasterTest, SideSlipCountsAsItLasts) {
+  constexpr double kSideways_mps = 0.1;
+  const auto spread = [&](int samples_to_one_side) {
+    Forecaster forecaster = make();
+    forecaster.push(estimate(0, 0.0, true), P_);
+    double side_slip_std_rad = 0.0;
+    for (int i = 1; i <= 150; ++i) {
+      Estimate e = estimate(i, slipAt(i, 0.02));
+      e.motion.v_eb_b.y() = (i / samples_to_one_side) % 2 == 0 ? kSideways_mps : -kSideways_mps;
+      if (const std::optional<Forecast> forecast = forecaster.push(e, P_)) {
+        side_slip_std_rad = forecast->outlook.side_slip_std_rad;
+      }
+    }
+    return side_slip_std_rad;
+  };
+  const double angle_rad = std::atan(kSideways_mps / kWheelSpeed_mps);
+  EXPECT_LT(spread(1), 0.05 * angle_rad);
+  EXPECT_GT(spread(52), 0.8 * angle_rad);
+}
+
 /// A slip of 5 % that stays is more than the filter expects, and is not explained away by its velocity error.
 TEST_F(ForecasterTest, SlipThatStaysCountsInFull) {
   const VehicleModelParams vehicle;
