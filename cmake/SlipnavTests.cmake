@@ -13,6 +13,9 @@ function(slipnav_configure_test target)
   slipnav_configure_target(${target})
   target_include_directories(${target} PRIVATE "${test_folder}" "${test_folder}/support")
   target_compile_definitions(${target} PRIVATE SLIPNAV_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(SLIPNAV_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)  # or compiling takes twice as long; the time is spent in the library
+  endif()
   # The fits are compared with NLopt's own.
   target_include_directories(${target} SYSTEM PRIVATE ${NLOPT_INCLUDE_DIR})
   target_link_libraries(${target} ${ARGN} ${NLOPT_LIBRARY})

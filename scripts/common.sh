@@ -62,12 +62,13 @@ ensure_built() { "$ROOT/scripts/build"; }
 
 enter_workspace() { source_setup "$BUILD/devel/setup.bash"; }
 
-# Puts the arguments into ARGUMENTS, names of configurations (--config NAME, as for launch files) as files of config/.
+# Puts the arguments into ARGUMENTS, names of configurations (--config NAME, --sensor NAME, as for launch files) as files
+# of config/.
 name_configurations() {
   local argument previous=""
   ARGUMENTS=()
   for argument in "$@"; do
-    if [[ "$previous" == --config && ! -e "$argument" && -f "$ROOT/config/$argument.yaml" ]]; then
+    if [[ "$previous" =~ ^--(config|sensor)$ && ! -e "$argument" && -f "$ROOT/config/$argument.yaml" ]]; then
       argument="$ROOT/config/$argument.yaml"
     fi
     ARGUMENTS+=("$argument")

@@ -241,15 +241,7 @@ def main():
     if is_for_one(line):
         os.execv(executable, [executable, *words])
     line.complain(parser)
-    engine.heed_signals()
-    try:
-        return run(parser, parser.parse_args(["--evaluate", executable, *line.own]), line)
-    except KeyboardInterrupt:
-        say("interrupted")
-        return engine.INTERRUPTED
-    except OSError as error:
-        say(error)
-        return 1
+    return engine.status_of(lambda: run(parser, parser.parse_args(["--evaluate", executable, *line.own]), line), say)
 
 
 if __name__ == "__main__":

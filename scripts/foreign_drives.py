@@ -77,7 +77,8 @@ def task_of(drive, arguments):
     configurations = [find(name, arguments.data, arguments.config_dir) for name in drive.configurations]
     if bag is None or None in configurations:
         return None
-    return Task(drive.bag, evaluate, (arguments.evaluate, bag, configurations, [FORECASTS] + arguments.set), os.path.getsize(bag))
+    return Task(drive.bag, evaluate, (arguments.evaluate, bag, configurations, [FORECASTS] + arguments.set),
+                os.path.getsize(bag))
 
 
 def evaluate_all(drives, arguments):
@@ -142,18 +143,8 @@ def check_medians(outcomes, limits):
         limits.at_most("median", "NEES", statistics.median(nees), MEDIAN_NEES[1])
 
 
-def main():
-    arguments = parse_arguments()
-    drives = [drive for drive in catalog.ALL if arguments.only in drive.bag]
-    engine.heed_signals()
-    try:
-        outcomes = evaluate_all(drives, arguments)
-    except KeyboardInterrupt:
-        print("foreign: interrupted", file=sys.stderr)
-        return engine.INTERRUPTED
-    except ConnectionError as error:
-        print(f"foreign: {error}", file=sys.stderr)
-        return 1
+def campaign(arguments):
+    outcomes = evaluate_all([drive for drive in catalog.ALL if arguments.only in drive.bag], arguments)
     limits = Limits()
     for drive, outcome in outcomes.items():
         if outcome is not None:
@@ -165,6 +156,11 @@ def main():
         with open(arguments.out, "w", encoding="utf-8") as file:
             file.write(table + "\n")
     return 1 if limits.broken else 0
+
+
+def main():
+    arguments = parse_arguments()
+    return engine.status_of(lambda: campaign(arguments), lambda text: print(f"foreign: {text}", file=sys.stderr))
 
 
 if __name__ == "__main__":

@@ -25,8 +25,9 @@ from slipnav_tables.curve import Curve  # noqa: E402
 from slipnav_tables.fleet import drive_all  # noqa: E402
 from slipnav_tables.intervals import Intervals  # noqa: E402
 from slipnav_tables.section import Options  # noqa: E402
+from slipnav_tables.skill import Skill  # noqa: E402
 
-SECTIONS = {section.NAME: section for section in (Table1, Table2, Clock, Curve, Intervals)}
+SECTIONS = {section.NAME: section for section in (Table1, Table2, Clock, Skill, Curve, Intervals)}
 
 
 class Parser(argparse.ArgumentParser):
@@ -114,15 +115,7 @@ def make_tables(arguments):
 
 def main():
     arguments = parse_arguments()
-    engine.heed_signals()
-    try:
-        return make_tables(arguments)
-    except KeyboardInterrupt:
-        print("tables: interrupted", file=sys.stderr)
-        return engine.INTERRUPTED
-    except OSError as error:
-        print(f"tables: {error}", file=sys.stderr)
-        return 1
+    return engine.status_of(lambda: make_tables(arguments), lambda text: print(f"tables: {text}", file=sys.stderr))
 
 
 if __name__ == "__main__":

@@ -66,18 +66,9 @@ def run(arguments, pool):
     return "worlds", *worlds.report(drive_all(arguments.simulate, drives, pool))
 
 
-def main():
-    arguments = parse_arguments()
-    engine.heed_signals()
-    try:
-        with engine.pool_of(arguments) as pool:
-            mode, table, limits = run(arguments, pool)
-    except KeyboardInterrupt:
-        print("zoo: interrupted", file=sys.stderr)
-        return engine.INTERRUPTED
-    except ConnectionError as error:
-        print(f"zoo: {error}", file=sys.stderr)
-        return 1
+def campaign(arguments):
+    with engine.pool_of(arguments) as pool:
+        mode, table, limits = run(arguments, pool)
     text = table + "\n\n" + limits.text() + "\n"
     print(text, end="")
     if arguments.out:
@@ -85,6 +76,11 @@ def main():
         with open(os.path.join(arguments.out, f"{mode}.md"), "w", encoding="utf-8") as file:
             file.write(text)
     return 1 if limits.broken else 0
+
+
+def main():
+    arguments = parse_arguments()
+    return engine.status_of(lambda: campaign(arguments), lambda text: print(f"zoo: {text}", file=sys.stderr))
 
 
 if __name__ == "__main__":

@@ -43,26 +43,66 @@ def heed_signals():
     signal.signal(signal.SIGHUP, interrupt)
 
 
-def run_all(tasks, pool, what="drives"):
-    """Outcome or Failure of each task, in order. A task lost with its process is run once more."""
-    waiting = collections.deque(sorted(range(len(tasks)), key=lambda number: -tasks[number].weight))  # longest first
-    running, outcomes, repeated = {}, [None] * len(tasks), set()
-    progress = Progress(tasks, what)
+def status_of(work, say):
+    """The exit status of a program whose work may be interrupted, or fail for a file or a connection."""
+    heed_signals()
     try:
-        while waiting or running:
-            while waiting and len(running) < pool.slots():
-                number = waiting.popleft()
-                running[pool.submit(tasks[number])] = number
-            for future in pool.wait(running, progress.say):
-                number = running.pop(future)
-                outcome = pool.outcome(future)
-                if isinstance(outcome, Lost) and number not in repeated:
-                    progress.say(f"{tasks[number].name}: {outcome}; it is rerun")
-                    repeated.add(number)
-                    waiting.appendleft(number)
-                    continue
-                outcomes[number] = outcome
-                progress.add(tasks[number], isinstance(outcome, Failure))
+        return work()
+    except KeyboardInterrupt:
+        say("interrupted")
+        return INTERRUPTED
+    except OSError as error:
+        say(error)
+        return 1
+
+
+class Campaign:
+    """Tasks on a pool. One that is lost with its process is run once more."""
+
+    def __init__(self, pool, say):
+        self.pool = pool
+        self.say = say
+        self.waiting = collections.deque()
+        self.running = {}  # tasks by what the pool has given for them
+        self.repeated = set()  # tasks that have been lost, by identity
+
+    def add(self, task):
+        self.waiting.append(task)
+
+    def is_busy(self):
+        return bool(self.waiting or self.running)
+
+    def step(self):
+        """[(task, its outcome or Failure)] of those that have ended; waits a while for one."""
+        while self.waiting and len(self.running) < self.pool.slots():
+            task = self.waiting.popleft()
+            self.running[self.pool.submit(task)] = task
+        ended = []
+        for future in self.pool.wait(self.running, self.say):
+            task = self.running.pop(future)
+            outcome = self.pool.outcome(future)
+            if isinstance(outcome, Lost) and id(task) not in self.repeated:
+                self.say(f"{task.name}: {outcome}; it is rerun")
+                self.repeated.add(id(task))
+                self.waiting.appendleft(task)
+            else:
+                self.repeated.discard(id(task))
+                ended.append((task, outcome))
+        return ended
+
+
+def run_all(tasks, pool, what="drives"):
+    """Outcome or Failure of each task, in order."""
+    progress = Progress(tasks, what)
+    campaign = Campaign(pool, progress.say)
+    for task in sorted(tasks, key=lambda task: -task.weight):  # longest first
+        campaign.add(task)
+    outcomes = {}
+    try:
+        while campaign.is_busy():
+            for task, outcome in campaign.step():
+                outcomes[id(task)] = outcome
+                progress.add(task, isinstance(outcome, Failure))
     finally:
         progress.finish()
-    return outcomes
+    return [outcomes[id(task)] for task in tasks]

@@ -64,3 +64,8 @@ def failure_of(program, status, lines):
     failure = Failure(lines[-1] if lines else f"{program} ended with status {status}")
     failure.said = tuple(lines[:-1])
     return failure
+
+
+def output_of(call, command):
+    """A task that is one program: what it wrote."""
+    return call(command)[0]

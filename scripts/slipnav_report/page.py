@@ -28,8 +28,8 @@ COLUMNS = (
     ("ENU error [%]", "enu_error_pct", 2), ("median error [%]", "median_error_pct", 2),
     ("horizontal median [m]", "horizontal_median_m", 2), ("std [m]", "horizontal_std_m", 2),
     ("max [m]", "horizontal_max_m", 2), ("RMS east [m]", "rms_east_m", 2), ("north [m]", "rms_north_m", 2),
-    ("up [m]", "rms_up_m", 2), ("wheels only [%]", "wheel_only_error_pct", 2), ("without stops' updates [%]",
-                                                                                 "no_zupt_error_pct", 2),
+    ("up [m]", "rms_up_m", 2), ("wheels only [%]", "wheel_only_error_pct", 2),
+    ("without stops' updates [%]", "no_zupt_error_pct", 2),
 )
 
 HINT = ("Drag over a figure to zoom: all that have a time axis follow. A double click shows the whole drive again. The "

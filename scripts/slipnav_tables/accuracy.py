@@ -24,8 +24,8 @@ COLUMNS_2 = (
 ASSUMED_THRESHOLD_M = 2.0  # of Table II, which gives none; the one of Rough_B, which is Test5 of Table I
 METHOD = "the paper's method"
 BY_METHOD = "by_the_papers_method"  # its figures in tables.json
-DRIVEN = ("One drive of the paper each; next to it simulated drives: by the paper's method (config/paper.yaml) and by slipnav, "
-          "median over the seeds, in brackets the maximum.")
+DRIVEN = ("One drive of the paper each; next to it simulated drives: by the paper's method (config/paper.yaml) and by "
+          "slipnav, median over the seeds, in brackets the maximum.")
 SIMULATED = "slipnav"
 
 

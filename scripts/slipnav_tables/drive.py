@@ -12,6 +12,8 @@ from slipnav_report.run_data import standstills
 
 from .paper import AUTONOMOUS
 
+HALF_EPOCH_S = 0.005
+
 
 @dataclass(frozen=True)
 class Drive:
@@ -26,6 +28,7 @@ class Drive:
     probe_after_stop_s: Optional[float] = None  # read the forecast that is made so long after the first stop
     with_stretches: bool = False  # also where the stops are not autonomous
     configurations: Tuple[str, ...] = ()  # YAML files
+    with_forecasts: bool = False  # compare them with what came
 
     def __str__(self):
         settings = "".join(f" {setting}" for setting in
@@ -57,10 +60,25 @@ class Stretch:
 
 
 @dataclass(frozen=True)
+class Promises:
+    """Bounds on the growth since the last stop, and what came; only where no stop came before."""
+
+    horizon_s: np.ndarray
+    since_s: np.ndarray  # from the stop to the end of the horizon
+    bound_m: np.ndarray
+    growth_m: np.ndarray
+
+    def at(self, horizon_s):
+        chosen = self.horizon_s == horizon_s
+        return Promises(*(getattr(self, key)[chosen] for key in ("horizon_s", "since_s", "bound_m", "growth_m")))
+
+
+@dataclass(frozen=True)
 class Outcome:
     metrics: dict
     stretches: List[Stretch]  # of autonomous drives, and where they were wanted
     time_to_stop_s: Optional[float]  # what the probed forecast says; infinite beyond its horizon
+    promises: Optional[Promises] = None  # where they were wanted
 
     def as_json(self):
         time_to_stop_s = self.time_to_stop_s
@@ -72,9 +90,9 @@ def read_outcome(drive, directory):
     """Raises OSError, ValueError or KeyError if the files are missing or malformed."""
     with open(os.path.join(directory, "metrics.json"), encoding="utf-8") as file:
         metrics = json.load(file)
-    stretches, time_to_stop_s = [], None
+    stretches, time_to_stop_s, promises = [], None, None
     wants_stretches = drive.policy == AUTONOMOUS or drive.with_stretches
-    if wants_stretches or drive.probe_after_stop_s is not None:
+    if wants_stretches or drive.with_forecasts or drive.probe_after_stop_s is not None:
         timeline = read_columns(os.path.join(directory, "timeline.csv"),
                                 ("t", "est_e", "est_n", "truth_e", "truth_n", "stationary"))
         if wants_stretches:
@@ -82,7 +100,10 @@ def read_outcome(drive, directory):
         if drive.probe_after_stop_s is not None:
             forecasts = read_columns(os.path.join(directory, "forecasts.csv"), ("t", "time_to_stop_s"))
             time_to_stop_s = probed_time_to_stop(timeline, forecasts, drive.probe_after_stop_s)
-    return Outcome(metrics, stretches, time_to_stop_s)
+        if drive.with_forecasts:
+            promises = kept_promises(timeline, read_columns(os.path.join(directory, "forecasts.csv"),
+                                                            ("t", "horizon_s", "horizontal_bound_m")))
+    return Outcome(metrics, stretches, time_to_stop_s, promises)
 
 
 def read_columns(path, names):
@@ -110,6 +131,22 @@ def driving_stretches(timeline, with_growth=True):
     return [Stretch(float(time[end] - time[begin]), growth(error[:, begin:end + 1]) if with_growth else None, i > 0,
                     i < len(stops))
             for i, (begin, end) in enumerate(zip(begins, ends))]
+
+
+def kept_promises(timeline, forecasts):
+    """Of the forecasts whose stretch of driving, after a stop, lasts to the end of the horizon."""
+    time, stationary = timeline["t"], timeline["stationary"] > 0.5
+    rest = np.maximum.accumulate(np.where(stationary, np.arange(len(time)), -1))  # the last estimate at rest
+    ends = forecasts["t"] + forecasts["horizon_s"]
+    made = np.searchsorted(time, forecasts["t"] - HALF_EPOCH_S)
+    end = np.minimum(np.searchsorted(time, ends - HALF_EPOCH_S), len(time) - 1)
+    kept = (ends <= time[-1] + HALF_EPOCH_S) & (rest[end] == rest[made]) & (rest[made] >= 0)
+    stop, end = rest[made[kept]], end[kept]
+    error = np.stack([timeline["est_" + axis] - timeline["truth_" + axis] for axis in "en"])
+    growth_m = np.hypot(*(error[:, end] - error[:, stop]))
+    known = np.isfinite(growth_m)
+    return Promises(forecasts["horizon_s"][kept][known], (time[end] - time[stop])[known],
+                    forecasts["horizontal_bound_m"][kept][known], growth_m[known])
 
 
 def growth(error):

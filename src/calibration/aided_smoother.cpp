@@ -116,7 +116,8 @@ class AidedSmoother::ForwardPass {
     state_.nav = strapdown_.propagate(before, withoutYawScale(previous, state_.yaw_scale), mean, interval.end);
     const Vector3 force = mean.f_ib_b - before.accel_bias_b;
     const Vector3 rate = mean.omega_ib_b - before.gyro_bias_b;
-    const ErrorTransition step = dynamics_.transition(before, state_.nav, force, rate, mean.duration_s);
+    const ErrorTransition step =
+        dynamics_.transition(before, state_.nav, force, rate, Vector3::Zero(), mean.duration_s);
     const AidedCovariance phi = transitionMatrix(step);
     P_.diagonal().head<kNavStates>() += 0.5 * step.noise.head<kNavStates>();
     P_ = phi * P_ * phi.transpose();

@@ -18,6 +18,10 @@ constexpr int kPasses = 2;
 constexpr double kLeastDistance_m = 3.0;
 /// Truth that contradicts the IMU more often than this is worse than it claims.
 constexpr double kRefusedShare = 0.02;
+/// Beyond this it is another drive, another clock or another robot.
+constexpr double kMostRefusedShare = 0.5;
+/// Nobody measures a wheel worse than this; beyond, a unit or an assignment is wrong.
+constexpr double kLargestRadiusRatio = 1.25;
 
 std::string withUnit(double value, const char* unit) {
   std::ostringstream text;
@@ -59,11 +63,17 @@ SmoothedDrive smooth(const Planet& planet, const Config& config, const Calibrati
     start = startOfNextPass(planet, smoothed, start);
     variance_factor *= std::max(1.0, smoothed.fix_nis);
   }
+  const std::size_t all_fixes = smoothed.fixes + smoothed.refused_fixes;
+  if (static_cast<double>(smoothed.refused_fixes) > kMostRefusedShare * static_cast<double>(all_fixes)) {
+    throw std::invalid_argument(std::to_string(smoothed.refused_fixes) + " of " + std::to_string(all_fixes) +
+                                " truth positions contradict IMU and wheels: is it the truth of this drive, in its own "
+                                "clock, and imu.mount right? See what ./run check says");
+  }
   result.fixes = smoothed.fixes;
   result.fix_noise_factor = std::sqrt(variance_factor);
   if (static_cast<double>(smoothed.refused_fixes) > kRefusedShare * static_cast<double>(smoothed.fixes)) {
     result.warnings.push_back(std::to_string(smoothed.refused_fixes) +
-                              "truth positions contradict the IMU and were rejected");
+                              " truth positions contradict the IMU and were rejected");
   }
   return smoothed;
 }
@@ -85,6 +95,21 @@ void describeDrive(const std::vector<MotionSample>& samples, CalibrationResult& 
   result.heading_std_rad = std::sqrt(heading_variance_s / moving_s);
 }
 
+/// A result that no robot has is not one.
+void requireSense(const std::optional<Calibrated>& ratio, bool of_wheels) {
+  if (!ratio) {
+    return;
+  }
+  const bool possible = std::isfinite(ratio->value) && std::isfinite(ratio->std) && ratio->std >= 0.0 &&
+                        ratio->value < kLargestRadiusRatio && ratio->value > 1.0 / kLargestRadiusRatio;
+  if (!possible) {
+    throw std::invalid_argument("the ground is " + withUnit(ratio->value, "times as far as the ") +
+                                (of_wheels ? "wheels say: check the unit of joint_states (rad/s), the gear, "
+                                             "wheels[].radius_m, sign and names"
+                                           : "odometry says: check its unit (m/s)"));
+  }
+}
+
 }  // namespace
 
 CalibrationResult calibrate(const Config& config, CalibrationDrive drive) {
@@ -100,6 +125,8 @@ CalibrationResult calibrate(const Config& config, CalibrationDrive drive) {
   const std::vector<MotionSample> samples = driveMotion(planet, config, drive, intervals, smoothed);
   describeDrive(samples, result);
   calibrateWheels(config, samples, result);
+  requireSense(result.left_radius_ratio, result.has_wheel_rates);
+  requireSense(result.right_radius_ratio, result.has_wheel_rates);
   calibrateMount(config, samples, result);
   return result;
 }

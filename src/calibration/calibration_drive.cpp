@@ -50,22 +50,19 @@ std::vector<TimedInterval> imuIntervals(const std::vector<ImuSample>& samples, c
   ImuScreen screen(params);
   std::vector<TimedInterval> intervals;
   intervals.reserve(samples.size());
-  ImuSample before;
+  Nanoseconds before = 0;
   for (const ImuSample& sample : withCorrectedStamps(samples, params)) {
     const ImuScreen::Result result = screen.check(sample);
     if (!isAccepted(result.verdict)) {
       continue;
     }
     if (result.gap_s > params.max_bridged_gap_s) {
-      failForGap(result.gap_s, toSeconds(before.stamp - samples.front().stamp));
+      failForGap(result.gap_s, toSeconds(before - samples.front().stamp));
     }
-    if (result.duration_s > 0.0) {
-      const bool by_both_ends = result.verdict == ImuVerdict::kAfterGap || params.sampling == "instantaneous";
-      const Vector3 force = by_both_ends ? Vector3(0.5 * (before.f_ib_b + sample.f_ib_b)) : sample.f_ib_b;
-      const Vector3 rate = by_both_ends ? Vector3(0.5 * (before.omega_ib_b + sample.omega_ib_b)) : sample.omega_ib_b;
-      intervals.push_back({before.stamp, sample.stamp, {force, rate, result.duration_s}});
+    if (result.interval.duration_s > 0.0) {
+      intervals.push_back({before, sample.stamp, result.interval});
     }
-    before = sample;
+    before = sample.stamp;
   }
   return intervals;
 }

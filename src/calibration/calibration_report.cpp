@@ -153,6 +153,11 @@ std::string calibrationYaml(const Config& config, const CalibrationResult& resul
   if (has_radii) {
     out << toYaml(WheelBlock{calibratedWheels(config, result)});
   }
+  if (!result.has_wheel_rates && result.left_radius_ratio) {
+    describeStd("wheel.odometry_scale [%]", result.left_radius_ratio, 100.0, 3, out);
+    out << "wheel:\n  odometry_scale: " << number(config.wheel.odometry_scale * result.left_radius_ratio->value, 5)
+        << "\n";
+  }
   if (result.scrub_factor) {
     out << "\nwheel:\n  scrub_factor: " << number(result.scrub_factor->value, 5) << "\n";
   }

@@ -19,7 +19,7 @@ struct SmoothStep {
 };
 
 /// Mechanizes from every smoothed epoch to the next.
-std::vector<SmoothStep> mechanise(const Planet& planet, const Vector3& lever_b,
+std::vector<SmoothStep> mechanize(const Planet& planet, const Vector3& lever_b,
                                   const std::vector<TimedInterval>& intervals, const SmoothedDrive& smoothed) {
   const Strapdown strapdown(planet);
   std::vector<SmoothStep> steps;
@@ -57,7 +57,7 @@ void describeAccuracy(const SmoothedEpoch& epoch, MotionSample& sample) {
 
 std::vector<MotionSample> driveMotion(const Planet& planet, const Config& config, const CalibrationDrive& drive,
                                       const std::vector<TimedInterval>& intervals, const SmoothedDrive& smoothed) {
-  const std::vector<SmoothStep> steps = mechanise(planet, -config.imu.mount.position_b(), intervals, smoothed);
+  const std::vector<SmoothStep> steps = mechanize(planet, -config.imu.mount.position_b(), intervals, smoothed);
   std::vector<MotionSample> samples;
   double travel_m = 0.0;
   auto first = steps.begin();

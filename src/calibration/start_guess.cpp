@@ -1,11 +1,14 @@
 #include "calibration/start_guess.h"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "core/ins/levelling.h"
 #include "evaluation/alignment.h"
 #include "evaluation/planar_dead_reckoning.h"
+#include "evaluation/truth_lag.h"
 #include "slipnav/core/base/rotation.h"
 #include "slipnav/core/earth/local_frame.h"
 
@@ -36,7 +39,7 @@ Vector2 level(const Config& config, const CalibrationDrive& drive, Nanoseconds s
 }
 
 /// Dead reckoning by wheels and gyro from heading north.
-EstimateTrack deadReckon(const CalibrationDrive& drive, Nanoseconds start) {
+PlanarTrack deadReckon(const CalibrationDrive& drive, Nanoseconds start) {
   PlanarDeadReckoning planar;
   planar.start({start, 0.0, 0.0, 0.0});
   for (const ImuSample& sample : drive.imu) {
@@ -45,8 +48,12 @@ EstimateTrack deadReckon(const CalibrationDrive& drive, Nanoseconds start) {
   for (const WheelMotion& wheels : drive.wheels) {
     planar.addSpeed({wheels.stamp, wheels.motion.forward_mps});
   }
+  return planar.track();
+}
+
+EstimateTrack toEstimates(const PlanarTrack& planar) {
   EstimateTrack track;
-  for (const PlanarSample& sample : planar.track()) {
+  for (const PlanarSample& sample : planar) {
     EstimateSample estimate;
     estimate.stamp = sample.stamp;
     estimate.position_enu_m << sample.east_m, sample.north_m, 0.0;
@@ -55,7 +62,7 @@ EstimateTrack deadReckon(const CalibrationDrive& drive, Nanoseconds start) {
   return track;
 }
 
-double heading(const Planet& planet, const Config& config, const CalibrationDrive& drive, Nanoseconds start) {
+TruthTrack truthOf(const Planet& planet, const CalibrationDrive& drive) {
   const LocalFrame frame(planet, drive.truth.front().position);
   std::vector<TruthSample> samples;
   for (const PositionFix& fix : drive.truth) {
@@ -64,7 +71,17 @@ double heading(const Planet& planet, const Config& config, const CalibrationDriv
     sample.position_enu_m = frame.toEnu(fix.position);
     samples.push_back(sample);
   }
-  return headingOffset(TruthTrack(samples), deadReckon(drive, start), config.initialization.drive_distance_m);
+  return TruthTrack(std::move(samples));
+}
+
+/// Heading of the truth relative to dead reckoning that starts northwards.
+double heading(const Planet& planet, const Config& config, const CalibrationDrive& drive, Nanoseconds start) {
+  const TruthTrack truth = truthOf(planet, drive);
+  const PlanarTrack planar = deadReckon(drive, start);
+  if (const std::optional<TruthLag> lag = truthLag(planar, truth)) {
+    throw std::invalid_argument("truth is " + describe(*lag));
+  }
+  return headingOffset(truth, toEstimates(planar), config.initialization.drive_distance_m);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/calibration_params.h"
+#include "config/command_line.h"
 #include "config/frames.h"
 #include "config/overlay_params.h"
 #include "config/override.h"
@@ -70,5 +71,12 @@ struct Config {
   /// what is wrong.
   static Config load(const std::vector<std::string>& yaml_files, const std::vector<Override>& overrides = {});
 };
+
+/// Declares the options that every executable with a configuration shares: --config, --topic, --set.
+void declareConfigOptions(CommandLine& command_line);
+
+/// The configuration selected by those options. Throws std::invalid_argument, see Config::load().
+/// @param first files that come before those of the options
+Config configFromOptions(const Arguments& arguments, std::vector<std::string> first = {});
 
 }  // namespace slipnav

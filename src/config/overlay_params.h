@@ -17,7 +17,7 @@ struct OverlayParams {
   double slip_full_scale = 0.3;
   double text_height_m = 0.7;
   std::string frame = "overlay";
-  double legend_east_m = 6.5;
+  double legend_east_m = 5.0;
   double legend_north_m = 12.5;
   void visit(ParameterVisitor& v);
 };

@@ -8,6 +8,8 @@ void TruthParams::visit(ParameterVisitor& v) {
            "estimate, by heading or by full attitude; heading: rotated to fit the first meters; auto: none for fixes, "
            "start_yaw for poses");
   v.number("heading_distance_m", heading_distance_m, {1.0, 1e4}, "distance over which align: heading fits [m]");
+  v.number("stamp_offset_s", stamp_offset_s, {-3600.0, 3600.0},
+           "added to the stamps of the truth, for a receiver with another time scale [s]");
 }
 
 TruthAlignment TruthParams::alignment(bool geodetic) const {

@@ -24,6 +24,7 @@ struct TruthAlignment {
 struct TruthParams {
   std::string align = "auto";
   double heading_distance_m = 30.0;
+  double stamp_offset_s = 0.0;
   void visit(ParameterVisitor& v);
 
   /// @param geodetic the truth has latitude and longitude; otherwise it is in its own frame

@@ -15,11 +15,11 @@ bool isRow(double time_s) { return std::abs(std::remainder(time_s, kRowInterval_
 }  // namespace
 
 ForecastRecorder::ForecastRecorder(const Config& config)
-    : forecaster_(Planet::byName(config.planet), config.navigation().filter, config.forecast),
+    : forecaster_(makeForecastMethod(Planet::byName(config.planet), config.navigation().filter, config.forecast)),
       sigma_points_(config.forecast.sigma_points) {}
 
 void ForecastRecorder::clear() {
-  forecaster_.reset();
+  forecaster_->reset();
   errors_.clear();
   slips_.clear();
   times_ms_.clear();
@@ -27,7 +27,7 @@ void ForecastRecorder::clear() {
 
 void ForecastRecorder::push(const Estimate& estimate, const ErrorCovariance& P, const Sink& sink) {
   const auto begin = std::chrono::steady_clock::now();
-  const std::optional<Forecast> forecast = forecaster_.push(estimate, P);
+  const std::optional<Forecast> forecast = forecaster_->push(estimate, P);
   if (!forecast) {
     return;
   }

@@ -2,11 +2,13 @@
 /// Makes the forecasts of a run and records them.
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "config/config.h"
 #include "core/forecast/forecast_method.h"
+#include "core/forecast/sigma_points.h"
 #include "evaluation/report.h"
 
 namespace slipnav {
@@ -31,7 +33,7 @@ class ForecastRecorder {
  private:
   void keep(const Forecast& forecast);
 
-  ForecastMethod forecaster_;
+  std::unique_ptr<ForecastMethod> forecaster_;
   SigmaPoints sigma_points_;
   std::vector<ForecastRow> errors_;
   std::vector<SlipForecastRow> slips_;

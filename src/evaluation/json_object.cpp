@@ -27,10 +27,20 @@ std::string quoted(const std::string& text) {
   return out.str() + '"';
 }
 
+std::string numberOrNull(std::optional<double> value) {
+  return value && std::isfinite(*value) ? formatNumber(*value) : "null";
+}
+
 }  // namespace
 
-void JsonObject::addNumber(const char* key, std::optional<double> value) {
-  begin(key) << (value && std::isfinite(*value) ? formatNumber(*value) : "null");
+void JsonObject::addNumber(const char* key, std::optional<double> value) { begin(key) << numberOrNull(value); }
+
+void JsonObject::addNumbers(const char* key, const Eigen::VectorXd& values) {
+  std::ostream& out = begin(key) << '[';
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    out << (i == 0 ? "" : ", ") << numberOrNull(values(i));
+  }
+  out << ']';
 }
 
 void JsonObject::addText(const char* key, const std::string& value) { begin(key) << quoted(value); }

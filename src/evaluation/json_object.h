@@ -1,6 +1,7 @@
 #pragma once
 /// Writes the members of one JSON object, independent of the locale.
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <locale>
 #include <optional>
@@ -19,6 +20,7 @@ class JsonObject {
   void addCount(const char* key, std::int64_t value) { begin(key) << value; }
   /// `null` if unknown or not finite.
   void addNumber(const char* key, std::optional<double> value);
+  void addNumbers(const char* key, const Eigen::VectorXd& values);
   void addText(const char* key, const std::string& value);
   void addObject(const char* key, const JsonObject& value);
   /// A list of one object per alarm: what, count, first_s, last_s.

@@ -174,6 +174,10 @@ Metrics computeMetrics(const MetricsInput& input, const MetricsOptions& options)
   metrics.truth_left_out = input.truth_left_out;
   metrics.stops_seen = input.stops.seen;
   metrics.stops_used = input.stops.used;
+  if (input.largest_nis) {
+    metrics.largest_nis = input.largest_nis->mean;
+    metrics.largest_nis_of = input.largest_nis->of;
+  }
   metrics.verdict = verdictOf(metrics, input.uses_stops);
   return metrics;
 }

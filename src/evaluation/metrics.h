@@ -11,6 +11,7 @@
 #include "evaluation/estimate.h"
 #include "evaluation/motion.h"
 #include "evaluation/planar_dead_reckoning.h"
+#include "evaluation/run_diagnostics.h"
 #include "evaluation/stop_ledger.h"
 #include "evaluation/truth_track.h"
 #include "slipnav/core/base/types.h"
@@ -36,6 +37,7 @@ struct MetricsInput {
   PlanarTrack wheel_only;   ///< the baseline; may be empty
   std::optional<double> no_zupt_error_pct;
   StopCounts stops;
+  std::optional<LargestNis> largest_nis;
   std::int64_t truth_left_out = 0;  ///< rows of truth that are not in `truth`
   bool uses_stops = true;           ///< zero-velocity updates are part of the run
   RunCounters counters;
@@ -85,6 +87,8 @@ struct Metrics {
   std::optional<double> final_pct;    ///< 100·horizontal_final_m/D
   std::int64_t stops_seen = 0;        ///< standstills by wheels and IMU, see StopLedger
   std::int64_t stops_used = 0;        ///< of these, with an accepted zero-velocity update
+  std::optional<double> largest_nis;  ///< see largestNis()
+  std::string largest_nis_of;         ///< the kind of measurement
   std::optional<double> threshold_m;  ///< ε as configured, of a run that forecasts
   /// Horizontal distance between the first and the last estimate, of a drive that returns to its start; so are those
   /// below.

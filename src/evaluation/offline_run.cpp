@@ -4,7 +4,7 @@
 #include <memory>
 #include <stdexcept>
 
-#include "core/slip/slip_ratio.h"
+#include "core/slip/vehicle_slip.h"
 #include "evaluation/forecast_judgement.h"
 #include "evaluation/truth_gate.h"
 #include "slipnav/core/base/rotation.h"
@@ -12,8 +12,6 @@
 
 namespace slipnav {
 namespace {
-
-constexpr double kSlowestSpeedForSlip_mps = 0.05;
 
 Config withoutZeroUpdates(Config config) {
   std::vector<std::string>& updates = config.filter.updates;
@@ -88,15 +86,8 @@ void OfflineRun::setTruth(const NavigationState& truth, bool has_attitude) {
   }
 }
 
-std::optional<double> OfflineRun::slipOf(const Estimate& estimate) const {
-  if (estimate.stationary) {
-    return std::nullopt;
-  }
-  return slipRatio(estimate.motion.v_eb_b.x(), estimate.wheels.motion.forward_mps, kSlowestSpeedForSlip_mps);
-}
-
 void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
-  if (!output_ || estimate.sequence == 0) {  // a new start, also after the clock went back
+  if (!output_ || estimate.first) {  // a new start, also after the clock went back
     output_.emplace(planet_, pipeline_.initial()->origin, -config_.imu.mount.position_b(),
                     pipeline_.filter().dynamics().gyroNoiseDensity());
     estimates_.clear();
@@ -107,7 +98,7 @@ void OfflineRun::record(const Estimate& estimate, const ErrorCovariance& P) {
     startWheelOnly(output_->make(estimate, P));
   }
   if (estimate.has_wheels) {
-    slip_ = slipOf(estimate);
+    slip_ = meanSlip(estimate);
   }
   const std::uint64_t zero_updates = pipeline_.filter().status(kZeroVelocity).accepted;
   if (zero_updates > zero_updates_) {
@@ -186,8 +177,7 @@ EstimateTrack OfflineRun::smoothedTrack() const {
     const bool stationary = filtered != estimates_.end() && filtered->stationary;
     const bool slips = wheel_speed_mps && !stationary;
     track.push_back({stamp, out.position_enu_m, out.pose_covariance.topLeftCorner<3, 3>(), out.q_flu_to_enu, speed_mps,
-                     slips ? slipRatio(speed_mps, *wheel_speed_mps, kSlowestSpeedForSlip_mps) : std::nullopt,
-                     stationary});
+                     slips ? slipRatio(speed_mps, *wheel_speed_mps) : std::nullopt, stationary});
   }
   return track;
 }
@@ -235,6 +225,7 @@ RunReport OfflineRun::finish(const TruthAlignment& alignment) const {
   }
   input.stops = stops_.counts(estimates_.front().stamp, estimates_.back().stamp);
   input.uses_stops = config_.filter.uses("zupt");
+  input.largest_nis = largestNis(filter_rows_.rows());
   report.metrics = computeMetrics(input);
   if (forecasts_) {
     report.metrics.threshold_m = config_.forecast.threshold_m;

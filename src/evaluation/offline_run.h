@@ -59,7 +59,6 @@ class OfflineRun {
   TruthTrack truthTrack(const TruthAlignment& alignment, const EstimateTrack& estimates, MetricsInput& input) const;
   EstimateTrack smoothedTrack() const;
   SmoothedRun smoothed(const TruthAlignment& alignment, const Metrics& filtered) const;
-  std::optional<double> slipOf(const Estimate& estimate) const;
 
   Config config_;
   Planet planet_;

@@ -166,6 +166,8 @@ std::string metricsJson(const Metrics& metrics, const Metrics* smoothed, const s
   json.addNumber("closure_up_m", metrics.closure_up_m);
   json.addNumber("closure_pct", metrics.closure_pct);
   json.addNumber("closure_3sigma_m", metrics.closure_3sigma_m);
+  json.addNumber("largest_nis", metrics.largest_nis);
+  json.addText("largest_nis_of", metrics.largest_nis_of);
   json.addText("verdict", metrics.verdict);
   json.addAlarms("problems", metrics.problems);
   json.addAlarms("alarms", metrics.alarms);

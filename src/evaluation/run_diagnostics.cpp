@@ -1,6 +1,7 @@
 #include "evaluation/run_diagnostics.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <iomanip>
 #include <limits>
 
@@ -13,6 +14,10 @@ namespace {
 
 /// Enough for plots.
 constexpr int kDigits = 8;
+
+/// One outlier of many sigma must not decide.
+constexpr double kMostOfOne = 100.0;
+constexpr double kLeastMeasurements = 50.0;
 
 Vector3 sigmas(const ErrorCovariance& P, int first) { return P.diagonal().segment<3>(first).cwiseMax(0.0).cwiseSqrt(); }
 
@@ -37,6 +42,22 @@ void FilterRecorder::add(const Estimate& estimate, const ErrorCovariance& P, con
     measured_[i] = status.accepted + status.rejected;
   }
   rows_.push_back(row);
+}
+
+std::optional<LargestNis> largestNis(const std::vector<FilterRow>& rows) {
+  std::optional<LargestNis> largest;
+  for (std::size_t i = 0; i < kComponents; ++i) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const FilterRow& row : rows) {
+      sum += row.nis[i] ? std::min(*row.nis[i], kMostOfOne) : 0.0;
+      count += row.nis[i] ? 1.0 : 0.0;
+    }
+    if (count >= kLeastMeasurements && (!largest || sum / count > largest->mean)) {
+      largest = LargestNis{componentName(static_cast<Component>(i)), sum / count};
+    }
+  }
+  return largest;
 }
 
 void writeFilterCsv(const std::string& path, const std::vector<FilterRow>& rows) {

@@ -56,6 +56,15 @@ class FilterRecorder {
   std::vector<FilterRow> rows_;
 };
 
+/// The kind of measurement that contradicts its predictions most.
+struct LargestNis {
+  std::string of;     ///< componentName()
+  double mean = 0.0;  ///< of the normalized innovations squared over their degrees of freedom; 1 is exact
+};
+
+/// Over the kinds that were measured often enough; each innovation counts for a hundred at most.
+std::optional<LargestNis> largestNis(const std::vector<FilterRow>& rows);
+
 /// `filter.csv`: t, wheel_speed, accel_bias_x…z, accel_sigma_x…z, gyro_bias_x…z, gyro_sigma_x…z (SI), and nis_ followed
 /// by each componentName().
 void writeFilterCsv(const std::string& path, const std::vector<FilterRow>& rows);

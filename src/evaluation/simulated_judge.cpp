@@ -7,11 +7,10 @@
 
 #include "core/base/text.h"
 #include "evaluation/simulated_drive.h"
+#include "evaluation/stop_ledger.h"
 
 namespace slipnav {
 namespace {
-
-constexpr double kShortestStop_s = 1.5;
 
 /// Per degree of freedom, of three; none if the covariance is not positive definite.
 std::optional<double> neesOf(const ErrorVector& error, const ErrorCovariance& P, int index) {

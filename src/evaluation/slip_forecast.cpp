@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/base/text.h"
+#include "evaluation/json_object.h"
 
 namespace slipnav {
 namespace {
@@ -38,22 +39,6 @@ bool appendRow(const std::string& row, SlipSamples& samples) {
   samples.times_s.push_back(*time_s);
   samples.slips.push_back(*slip);
   return true;
-}
-
-std::string jsonArray(const Eigen::VectorXd& values) {
-  std::string text = "[";
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    text += (i == 0 ? "" : ", ") + formatNumber(values(i));
-  }
-  return text + "]";
-}
-
-std::string jsonObject(const std::vector<std::pair<std::string, double>>& members) {
-  std::string text = "{";
-  for (const auto& [name, value] : members) {
-    text += (text.size() == 1 ? "\"" : ", \"") + name + "\": " + formatNumber(value);
-  }
-  return text + "}";
 }
 
 /// Every power of ten, twice and five times it: within `horizon_s`, and that itself.
@@ -130,24 +115,27 @@ SlipForecastResult forecastSlip(const SlipSamples& samples, const SlipModelParam
 }
 
 std::string toJson(const SlipForecastResult& forecast) {
-  const GaussMarkovSlip& correlation = forecast.correlation;
-  std::string text = "{\n";
-  text += "  \"model\": \"" + forecast.model + "\",\n";
-  text += "  \"status\": \"" + std::string(toString(forecast.fit.status)) + "\",\n";
-  text += "  \"origin_s\": " + formatNumber(forecast.fit.origin_s) + ",\n";
-  text += "  \"hyperparameters\": " + jsonObject(forecast.fit.hyperparameters) + ",\n";
-  text += "  \"log_marginal_likelihood\": " + formatNumber(forecast.fit.log_marginal_likelihood) + ",\n";
-  text += "  \"samples\": " + std::to_string(forecast.fit.samples) + ",\n";
-  text += "  \"left_out\": " + std::to_string(forecast.fit.left_out) + ",\n";
-  text += "  \"correlation\": " +
-          jsonObject({{"bias_stddev", correlation.bias_stddev},
-                      {"stddev", correlation.stddev},
-                      {"time_constant_s", correlation.time_constant_s}}) +
-          ",\n";
-  text += "  \"t\": " + jsonArray(forecast.prediction.times_s) + ",\n";
-  text += "  \"mean\": " + jsonArray(forecast.prediction.mean) + ",\n";
-  text += "  \"stddev\": " + jsonArray(forecast.prediction.stddev) + "\n}\n";
-  return text;
+  JsonObject hyperparameters;
+  for (const auto& [name, value] : forecast.fit.hyperparameters) {
+    hyperparameters.addNumber(name.c_str(), value);
+  }
+  JsonObject correlation;
+  correlation.addNumber("bias_stddev", forecast.correlation.bias_stddev);
+  correlation.addNumber("stddev", forecast.correlation.stddev);
+  correlation.addNumber("time_constant_s", forecast.correlation.time_constant_s);
+  JsonObject json;
+  json.addText("model", forecast.model);
+  json.addText("status", toString(forecast.fit.status));
+  json.addNumber("origin_s", forecast.fit.origin_s);
+  json.addObject("hyperparameters", hyperparameters);
+  json.addNumber("log_marginal_likelihood", forecast.fit.log_marginal_likelihood);
+  json.addCount("samples", forecast.fit.samples);
+  json.addCount("left_out", forecast.fit.left_out);
+  json.addObject("correlation", correlation);
+  json.addNumbers("t", forecast.prediction.times_s);
+  json.addNumbers("mean", forecast.prediction.mean);
+  json.addNumbers("stddev", forecast.prediction.stddev);
+  return json.text();
 }
 
 std::string summaryOf(const SlipForecastResult& forecast) {

@@ -7,7 +7,6 @@
 namespace slipnav {
 namespace {
 
-constexpr double kShortestStop_s = 1.5;
 /// An encoder between two counts flickers; a rover slower than this does not move between stops.
 constexpr double kRestSpeed_mps = 0.002;
 /// The filter may process the last sample of a rest a moment later.

@@ -13,6 +13,9 @@
 
 namespace slipnav {
 
+/// A shorter standstill is no stop.
+inline constexpr double kShortestStop_s = 1.5;
+
 /// Standstills between motion.
 struct StopCounts {
   std::int64_t seen = 0;  ///< wheels and IMU at rest for 1.5 s or more

@@ -1,5 +1,6 @@
 #include "evaluation/verdict.h"
 
+#include <algorithm>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -10,6 +11,8 @@ namespace {
 /// Position errors of one drive are strongly correlated: its mean NEES scatters by a factor of a few about 1.
 constexpr double kLargestNees = 4.0;
 constexpr double kSmallestNees = 0.2;
+/// Innovations that are this far from their predictions on average say so without any truth.
+constexpr double kLargestNis = 2.0;
 constexpr double kLeastCoverage_pct = 95.0;
 /// Wheels and gyro alone may win by luck on one drive.
 constexpr double kWorseFactor = 1.2;
@@ -46,14 +49,31 @@ std::string closureOf(const Metrics& metrics) {
   return text.str();
 }
 
+/// "NIS of forward speed 40".
+std::string nisOf(const Metrics& metrics) {
+  std::string kind = metrics.largest_nis_of;
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  return (Text() << "NIS of " << kind << " " << *metrics.largest_nis).str();
+}
+
+bool contradicts(const Metrics& metrics) { return metrics.largest_nis.value_or(0.0) > kLargestNis; }
+
+std::string withoutTruth(const Metrics& metrics) {
+  if (metrics.closure_m) {
+    return closureOf(metrics);
+  }
+  return contradicts(metrics) ? "over-confident: " + nisOf(metrics) + "; no truth to judge the position by"
+                              : "not judged: no truth";
+}
+
 std::string consistencyOf(const Metrics& metrics) {
   if (!metrics.coverage_3sigma_pct) {
-    return metrics.closure_m ? closureOf(metrics) : "not judged: no truth";
+    return withoutTruth(metrics);
   }
   const double nees = metrics.position_nees_mean.value_or(1.0);
   if (nees > kLargestNees || *metrics.coverage_3sigma_pct < kLeastCoverage_pct) {
     return (Text() << "over-confident: 3 sigma covers " << *metrics.coverage_3sigma_pct << " % of the errors, NEES "
-                   << nees)
+                   << nees << (contradicts(metrics) ? ", " + nisOf(metrics) : ""))
         .str();
   }
   return nees < kSmallestNees ? "cautious" : "consistent";

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/square.h"
+#include "inspection/fine_offset.h"
 
 namespace slipnav {
 namespace {
@@ -19,6 +20,9 @@ constexpr int kPeak = 15;  // steps
 /// The next peak must be lower by this factor: regular stops repeat themselves.
 constexpr double kClearly = 0.85;
 constexpr std::size_t kLeastSamples = 200;
+/// What the estimator allows for anyway is not worth a word.
+constexpr double kWorthSaying_s = 0.02;
+constexpr double kSigmas = 3.0;
 
 using Signal = std::vector<double>;
 
@@ -127,14 +131,9 @@ Signals sample(const ImuTrack& imu, const WheelTrack& wheels, const Vector3& up)
   return signals;
 }
 
-}  // namespace
-
-ClockOffset correlateClocks(const ImuTrack& imu, const WheelTrack& wheels, const Vector3& up) {
-  const Signals signals = sample(imu, wheels, up);
-  if (signals.imu_turn.size() < kLeastSamples) {
-    return {};
-  }
-  if (wheels.has_turn) {
+/// By turns where the wheels tell them.
+ClockOffset roughOffset(const Signals& signals, bool has_turn) {
+  if (has_turn) {
     ClockOffset by_turns = Shifts({highPass(signals.imu_turn)}, highPass(signals.wheel_turn)).best();
     by_turns.by_turns = true;
     if (by_turns.known) {
@@ -143,6 +142,27 @@ ClockOffset correlateClocks(const ImuTrack& imu, const WheelTrack& wheels, const
   }
   return Shifts({highPass(signals.imu_first), highPass(signals.imu_second)}, highPass(signals.wheel_acceleration))
       .best();
+}
+
+}  // namespace
+
+bool ClockOffset::isBeyond(double offset_s) const {
+  return known && std::abs(wheels_ahead_s - offset_s) > std::max(kSigmas * std_s, kWorthSaying_s);
+}
+
+ClockOffset correlateClocks(const ImuTrack& imu, const WheelTrack& wheels, const Vector3& up) {
+  const Signals signals = sample(imu, wheels, up);
+  if (signals.imu_turn.size() < kLeastSamples) {
+    return {};
+  }
+  ClockOffset offset = roughOffset(signals, wheels.has_turn);
+  if (offset.known) {
+    if (const auto fine = fineOffset(imu, wheels, up, offset.wheels_ahead_s, offset.by_turns)) {
+      offset.wheels_ahead_s = fine->wheels_ahead_s;
+      offset.std_s = fine->std_s;
+    }
+  }
+  return offset;
 }
 
 }  // namespace slipnav

@@ -9,8 +9,12 @@ namespace slipnav {
 struct ClockOffset {
   bool known = false;           ///< one shift fits clearly better than all others
   double wheels_ahead_s = 0.0;  ///< stamps of the wheels less those of the IMU, for the same motion
+  double std_s = 0.05;          ///< 1σ of it
   double correlation = 0.0;
   bool by_turns = false;  ///< heading rates; else accelerations
+
+  /// Whether it is known, and clearly another one than `offset_s`.
+  bool isBeyond(double offset_s) const;
 };
 
 /// @param up direction of the mean specific force in the sensor's axes

@@ -18,8 +18,6 @@ constexpr double kGoodFix_m = 0.5;
 /// initialization.min_rest_s and some reserve.
 constexpr double kLongStart_s = 6.0;
 constexpr double kLeastFixes = 20.0;
-/// A smaller delay cannot be separated from how intervals are taken.
-constexpr double kLeastDelay_s = 0.1;
 constexpr double kLargestDelay_s = 1.0;
 
 std::string bare(const std::string& topic) {
@@ -90,13 +88,22 @@ class Proposal {
   /// What a data sheet may understate.
   std::string noiseLines() const {
     const LeastBias bias = leastBias(found_.rest);
+    const ImuNoiseParams sheet = options_.noise();
+    const LeastNoise noise = leastNoise(found_.rest, sheet);
     std::string lines;
-    if (bias.force_mps2 / kMicroG > ImuNoiseParams{}.accel_bias_std_ug) {
+    if (noise.accel_noise_mps_per_sqrt_h > 0.0) {
+      lines += "    accel_noise_mps_per_sqrt_h: " + decimal(noise.accel_noise_mps_per_sqrt_h, 3) +
+               "  # at rest, means over 0.1 to 0.4 s\n";
+    }
+    if (noise.gyro_noise_deg_per_sqrt_h > 0.0) {
+      lines += "    gyro_noise_deg_per_sqrt_h: " + decimal(noise.gyro_noise_deg_per_sqrt_h, 2) + "  # likewise\n";
+    }
+    if (bias.force_mps2 / kMicroG > sheet.accel_bias_std_ug) {
       lines += "    accel_bias_std_ug: " + decimal(bias.force_mps2 / kMicroG, 0) +
                "  # at rest: " + decimal(found_.rest.force.norm(), 2) + " m/s²\n";
     }
     const double rate_deg_per_h = 3600.0 * radToDeg(bias.rate_radps);
-    if (rate_deg_per_h > ImuNoiseParams{}.gyro_bias_std_deg_per_h) {
+    if (rate_deg_per_h > sheet.gyro_bias_std_deg_per_h) {
       lines += "    gyro_bias_std_deg_per_h: " + decimal(rate_deg_per_h, 0) + "  # at rest\n";
     }
     return lines.empty() ? "" : "  noise:\n" + lines;
@@ -191,8 +198,8 @@ class Proposal {
 
   void writeWheelSource() {
     const ClockOffset& clock = found_.clock;
-    const bool delayed = clock.known && found_.stamps_are_set && std::abs(clock.wheels_ahead_s) > kLeastDelay_s &&
-                         std::abs(clock.wheels_ahead_s) <= kLargestDelay_s;
+    const bool delayed =
+        found_.stamps_are_set && clock.isBeyond(0.0) && std::abs(clock.wheels_ahead_s) <= kLargestDelay_s;
     if (!usesOdometry() && !delayed) {
       return;
     }
@@ -201,8 +208,8 @@ class Proposal {
       yaml_ += "  source: wheel_odometry  # no joints that turn\n";
     }
     if (delayed) {
-      yaml_ += "  stamp_delay_s: " + decimal(clock.wheels_ahead_s, 2) + "  # by correlation with the IMU, " +
-               decimal(clock.correlation, 2) + "\n";
+      yaml_ += "  stamp_delay_s: " + decimal(clock.wheels_ahead_s, 3) + "  # ± " + decimal(clock.std_s, 3) +
+               " (1 sigma), by correlation with the IMU, " + decimal(clock.correlation, 2) + "\n";
     }
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/ordering/stamp_watch.h"
+#include "evaluation/truth_gate.h"
 #include "inspection/encoder_check.h"
 #include "inspection/stream_check.h"
 #include "slipnav/core/ekf/engine/filter_data.h"
@@ -137,11 +138,13 @@ class Inspector {
     checkScatter(record.topic, imu.stampFaults());
     makeTrack();
     result_.rest = pictureOf(imu, restsOf(result_.track));
-    checkRests(record.topic, result_.rest, result_.findings);
+    checkRests(record.topic, result_.rest, options_.noise(), result_.findings);
     if (result_.track.rows.empty()) {
       return;
     }
     checkClocks(imu);
+    const double ahead_s = result_.clock.known && result_.stamps_are_set ? result_.clock.wheels_ahead_s : 0.0;
+    drive_ = deadReckoning(imu, result_.track, result_.rest.force.normalized(), result_.rest.rate, ahead_s);
     const bool has_force = units.has_gravity && record.without_force < record.samples.size();
     if (has_force) {
       checkMotion(imu, record.topic);
@@ -243,17 +246,22 @@ class Inspector {
     compareReceipt(result_.track.topic, wheel_statistics_);
     const Vector3 up = result_.rest.force.norm() > 0.0 ? Vector3(result_.rest.force.normalized()) : Vector3::UnitZ();
     result_.clock = correlateClocks(imu, result_.track, up);
-    const double limit_s = std::max(kLeastShift_s, result_.track.interval_s);
     const double ahead_s = result_.clock.wheels_ahead_s;
-    if (!result_.clock.known || !result_.stamps_are_set || std::abs(ahead_s) <= limit_s) {
+    const double configured_s = options_.config ? options_.config->wheel.stamp_delay_s : 0.0;
+    if (!result_.stamps_are_set || !result_.clock.isBeyond(configured_s)) {
       return;
     }
-    say(std::abs(ahead_s) > kApart_s ? Severity::kUnusable : Severity::kDoubtful, result_.track.topic,
-        "its stamps are " + decimal(std::abs(ahead_s), 2) + " s " + (ahead_s > 0.0 ? "ahead of" : "behind") +
-            " those of " + result_.roles.imu->topic + ", by the motion that both observe (" +
-            (result_.clock.by_turns ? "heading rates" : "accelerations") + ", correlation " +
-            decimal(result_.clock.correlation, 2) + ")",
-        std::abs(ahead_s) <= kCorrectable_s ? "wheel: {stamp_delay_s: " + decimal(ahead_s, 2) + "}"
+    const double limit_s = std::max(kLeastShift_s, result_.track.interval_s);
+    const double off_s = std::abs(ahead_s - configured_s);
+    say(off_s > kApart_s  ? Severity::kUnusable
+        : off_s > limit_s ? Severity::kDoubtful
+                          : Severity::kRemark,
+        result_.track.topic,
+        "its stamps are " + decimal(std::abs(ahead_s), 2) + " ± " + decimal(result_.clock.std_s, 2) + " s " +
+            (ahead_s > 0.0 ? "ahead of" : "behind") + " those of " + result_.roles.imu->topic +
+            ", by the motion that both observe (" + (result_.clock.by_turns ? "heading rates" : "accelerations") +
+            ", correlation " + decimal(result_.clock.correlation, 2) + ")",
+        std::abs(ahead_s) <= kCorrectable_s ? "wheel: {stamp_delay_s: " + decimal(ahead_s, 3) + "}"
                                             : "let one computer stamp both, or synchronize the clocks (chrony)");
   }
 
@@ -304,20 +312,27 @@ class Inspector {
     }
   }
 
+  /// As configured.
+  Nanoseconds fixOffset() const {
+    return options_.config ? fromSeconds(options_.config->initialization.fix_stamp_offset_s) : 0;
+  }
+  Nanoseconds truthOffset() const { return options_.config ? fromSeconds(options_.config->truth.stamp_offset_s) : 0; }
+
   void checkPositions() {
     const Roles& roles = result_.roles;
     if (roles.fix != nullptr) {
-      result_.fixes = positionsOf(*roles.fix, recording_.begin);
+      result_.fixes = positionsOf(*roles.fix, recording_.begin - fixOffset());
       checkPositionStream(roles.fix->topic, timesOf(*roles.fix));
       checkFixes(*roles.fix, result_.fixes, result_.findings);
+      checkClockByTrack(roles.fix->topic, withoutJumps(result_.fixes), drive_, result_.findings);
       checkJumps(roles.fix->topic, result_.fixes, result_.findings);
     }
     if (roles.truth_fix != nullptr && roles.truth_fix != roles.fix) {
-      result_.truth = positionsOf(*roles.truth_fix, recording_.begin);
+      result_.truth = positionsOf(*roles.truth_fix, recording_.begin - truthOffset());
       checkFixes(*roles.truth_fix, result_.truth, result_.findings);
       checkTruth(roles.truth_fix->topic, timesOf(*roles.truth_fix));
     } else if (roles.truth_pose != nullptr) {
-      result_.truth = positionsOf(*roles.truth_pose, recording_.begin);
+      result_.truth = positionsOf(*roles.truth_pose, recording_.begin - truthOffset());
       result_.truth_in_start_frame = isInStartFrame(*roles.truth_pose);
       checkTruth(roles.truth_pose->topic, timesOf(*roles.truth_pose));
     }
@@ -341,6 +356,7 @@ class Inspector {
   void checkTruth(const std::string& topic, const std::vector<MessageTime>& times) {
     checkPositionStream(topic, times);
     checkJumps(topic, result_.truth, result_.findings);
+    checkClockByTrack(topic, withoutJumps(result_.truth), drive_, result_.findings);
     checkTimeInCommon(topic, result_.truth, imu_begin_s_, imu_end_s_, result_.findings);
   }
 
@@ -350,6 +366,7 @@ class Inspector {
   Inspection result_;
   StreamStatistics imu_statistics_;
   StreamStatistics wheel_statistics_;
+  PlanarTrack drive_;  ///< by wheels and gyros
   double imu_begin_s_ = 0.0;
   double imu_end_s_ = 0.0;
   std::string recording_name_ = "recording";

@@ -20,10 +20,14 @@ namespace slipnav {
 
 /// Prior knowledge about the recording.
 struct InspectionOptions {
-  std::optional<Config> config;   ///< checked against the recording
-  std::optional<MountParams> tf;  ///< pose of the IMU in base_link from /tf and /tf_static
-  std::string truth;              ///< topic or file of the truth; "" to guess
-  double wheel_radius_m = 0.0;    ///< 0: not known
+  std::optional<Config> config;          ///< checked against the recording
+  std::optional<MountParams> tf;         ///< pose of the IMU in base_link from /tf and /tf_static
+  std::optional<ImuNoiseParams> sensor;  ///< its data sheet
+  std::string truth;                     ///< topic or file of the truth; "" to guess
+  double wheel_radius_m = 0.0;           ///< 0: not known
+
+  /// imu.noise of the configuration, the data sheet, or the default.
+  ImuNoiseParams noise() const { return config ? config->imu.noise : sensor.value_or(ImuNoiseParams{}); }
 };
 
 /// All results.

@@ -5,6 +5,7 @@
 
 #include "core/base/statistics.h"
 #include "evaluation/truth_gate.h"
+#include "evaluation/truth_lag.h"
 #include "inspection/stream_check.h"
 #include "slipnav/core/earth/planet.h"
 #include "slipnav/core/ekf/models/gnss_fix.h"
@@ -59,6 +60,9 @@ void checkSolutions(const FixRecord& record, Findings& findings) {
 }
 
 void checkQuality(const FixRecord& record, Findings& findings) {
+  for (const auto& [flaw, rows] : record.left_out) {
+    findings.push_back({Severity::kRemark, record.topic, counted(rows, "row") + " " + flaw, "nothing: skipped"});
+  }
   std::vector<double> sigmas;
   for (const RawFixSample& sample : record.samples) {
     if (sample.is_usable) {
@@ -188,6 +192,34 @@ void checkTimeInCommon(const std::string& topic, const TruthTrack& positions, do
         {Severity::kRemark, topic,
          "covers " + decimal(common_s, 0) + " s of the " + decimal(imu_end_s - imu_begin_s, 0) + " s of the drive",
          "errors are evaluated there only"});
+  }
+}
+
+PlanarTrack deadReckoning(const ImuTrack& imu, const WheelTrack& wheels, const Vector3& up, const Vector3& bias,
+                          double wheels_ahead_s) {
+  PlanarTrack track;
+  PlanarSample pose;
+  for (const WheelRow& row : wheels.in_meters ? wheels.rows : std::vector<WheelRow>{}) {
+    const double middle_s = row.time_s - wheels_ahead_s;
+    const double from_s = middle_s - 0.5 * row.interval_s;
+    const double to_s = middle_s + 0.5 * row.interval_s;
+    pose.stamp = fromSeconds(to_s);
+    if (imu.firstAfter(to_s) > imu.firstAfter(from_s)) {  // clockwise, and up is the other way
+      pose.heading_rad -= row.interval_s * up.dot(imu.meanRate(from_s, to_s) - bias);
+    }
+    pose.east_m += row.interval_s * row.speed * std::sin(pose.heading_rad);
+    pose.north_m += row.interval_s * row.speed * std::cos(pose.heading_rad);
+    track.push_back(pose);
+  }
+  return track;
+}
+
+void checkClockByTrack(const std::string& topic, const TruthTrack& positions, const PlanarTrack& drive,
+                       Findings& findings) {
+  if (const std::optional<TruthLag> lag = truthLag(drive, positions)) {
+    findings.push_back({Severity::kUnusable, topic, describe(*lag),
+                        "synchronize the clocks (chrony); gps/fix: initialization.fix_stamp_offset_s; truth: "
+                        "truth.stamp_offset_s"});
   }
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 /// Positions from satellites and truth: quality, outliers, height, overlap in time, and what they say about the wheels.
 
+#include "evaluation/planar_dead_reckoning.h"
 #include "evaluation/truth_track.h"
 #include "inspection/finding.h"
+#include "inspection/imu_track.h"
 #include "inspection/wheel_track.h"
 
 namespace slipnav {
@@ -20,6 +22,17 @@ void checkJumps(const std::string& topic, const TruthTrack& positions, Findings&
 
 /// @param imu_begin_s, imu_end_s stamps of the IMU after the origin
 void checkTimeInCommon(const std::string& topic, const TruthTrack& positions, double imu_begin_s, double imu_end_s,
+                       Findings& findings);
+
+/// Dead reckoning in the plane by wheels and gyros, from zero heading north, once per row of the wheels. Empty where
+/// the speed of the wheels is not known in meters.
+/// @param up direction of the mean specific force in the sensor's axes; @param bias rate at rest
+/// @param wheels_ahead_s stamps of the wheels less those of the IMU
+PlanarTrack deadReckoning(const ImuTrack& imu, const WheelTrack& wheels, const Vector3& up, const Vector3& bias,
+                          double wheels_ahead_s);
+
+/// Positions that fit the drive of wheels and gyros only at another time.
+void checkClockByTrack(const std::string& topic, const TruthTrack& positions, const PlanarTrack& drive,
                        Findings& findings);
 
 /// Ground over wheels.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -80,6 +81,7 @@ struct FixRecord {
   std::string topic;
   std::string frame;
   std::vector<RawFixSample> samples;
+  std::map<std::string, std::size_t> left_out;  ///< rows of a file without a position, by what they are
 };
 
 /// A pose in /tf or /tf_static.

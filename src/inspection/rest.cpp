@@ -19,6 +19,9 @@ constexpr double kLargeBias_radps = 0.001;
 /// Even the cheapest gyros are not further off: 5 °/s.
 constexpr double kLargestGyroBias_radps = 0.087;
 constexpr double kBlock_s = 0.5;
+constexpr double kPerSqrtHour = 60.0;
+/// Noise known to a sixth is not worth a word below this ratio to the configured one.
+constexpr double kClearlyMore = 1.3;
 /// Gravity on Earth is within this.
 constexpr double kGravity_mps2 = 9.806;
 constexpr double kGravitySpan_mps2 = 0.03;
@@ -111,6 +114,21 @@ void describeRests(const std::string& topic, const RestPicture& picture, Finding
   }
 }
 
+void sayNoise(const std::string& topic, const LeastNoise& noise, Findings& findings) {
+  if (noise.gyro_noise_deg_per_sqrt_h > 0.0) {
+    findings.push_back(
+        {Severity::kRemark, topic,
+         "at rest the angle random walk of the gyros is " + decimal(noise.gyro_noise_deg_per_sqrt_h, 2) + " °/√h",
+         "imu.noise.gyro_noise_deg_per_sqrt_h not below that, whatever the data sheet says"});
+  }
+  if (noise.accel_noise_mps_per_sqrt_h > 0.0) {
+    findings.push_back({Severity::kRemark, topic,
+                        "at rest the velocity random walk of the accelerometers is " +
+                            decimal(noise.accel_noise_mps_per_sqrt_h, 3) + " m/s/√h",
+                        "imu.noise.accel_noise_mps_per_sqrt_h not below that, whatever the data sheet says"});
+  }
+}
+
 }  // namespace
 
 std::vector<StillTime> restsOf(const WheelTrack& wheels) {
@@ -146,6 +164,7 @@ RestPicture pictureOf(const ImuTrack& imu, const std::vector<StillTime>& rests) 
   std::copy_if(rests.begin(), rests.end(), std::back_inserter(picture.rests),
                [&imu](const StillTime& rest) { return !isTurning(imu, rest); });
   noteRests(imu, picture);
+  picture.noise = restNoise(imu, picture.rests);
   noteDriving(imu, picture);
   return picture;
 }
@@ -161,7 +180,17 @@ LeastBias leastBias(const RestPicture& picture) {
   return bias;
 }
 
-void checkRests(const std::string& topic, const RestPicture& picture, Findings& findings) {
+LeastNoise leastNoise(const RestPicture& picture, const ImuNoiseParams& assumed) {
+  LeastNoise noise;
+  const double accel = picture.noise.force * kPerSqrtHour;
+  const double gyro = radToDeg(picture.noise.rate) * kPerSqrtHour;
+  noise.accel_noise_mps_per_sqrt_h = accel > kClearlyMore * assumed.accel_noise_mps_per_sqrt_h ? accel : 0.0;
+  noise.gyro_noise_deg_per_sqrt_h = gyro > kClearlyMore * assumed.gyro_noise_deg_per_sqrt_h ? gyro : 0.0;
+  return noise;
+}
+
+void checkRests(const std::string& topic, const RestPicture& picture, const ImuNoiseParams& assumed,
+                Findings& findings) {
   if (!picture.known) {
     findings.push_back({Severity::kRemark, topic,
                         "no rest of 2 s or more: biases and level are not known from the start",
@@ -170,6 +199,7 @@ void checkRests(const std::string& topic, const RestPicture& picture, Findings& 
     return;
   }
   describeRests(topic, picture, findings);
+  sayNoise(topic, leastNoise(picture, assumed), findings);
   const LeastBias bias = leastBias(picture);
   if (bias.rate_radps > 0.0) {
     findings.push_back(

@@ -5,15 +5,11 @@
 
 #include "inspection/finding.h"
 #include "inspection/imu_track.h"
+#include "inspection/rest_noise.h"
 #include "inspection/wheel_track.h"
+#include "slipnav/core/ekf/error_dynamics.h"
 
 namespace slipnav {
-
-/// A time without motion of the wheels [s].
-struct StillTime {
-  double begin_s = 0.0;
-  double end_s = 0.0;
-};
 
 /// Rests of the wheels of a second and more, without half a second at either end.
 std::vector<StillTime> restsOf(const WheelTrack& wheels);
@@ -26,6 +22,7 @@ struct RestPicture {
   Vector3 rate = Vector3::Zero();       ///< at rest: the gyro bias; zero if there is no rest
   Vector3 force_std = Vector3::Zero();  ///< at rest, within each rest
   Vector3 rate_std = Vector3::Zero();
+  RestNoise noise;
   Vector3 driving_force_std = Vector3::Zero();  ///< from sample to sample, while driving
   Vector3 driving_rate_std = Vector3::Zero();
 };
@@ -41,6 +38,17 @@ struct LeastBias {
 
 LeastBias leastBias(const RestPicture& picture);
 
-void checkRests(const std::string& topic, const RestPicture& picture, Findings& findings);
+/// imu.noise that the readings at rest exceed; 0 if they do not, or if they are not known.
+struct LeastNoise {
+  double accel_noise_mps_per_sqrt_h = 0.0;
+  double gyro_noise_deg_per_sqrt_h = 0.0;
+};
+
+/// @param assumed what the sensor is believed to be
+LeastNoise leastNoise(const RestPicture& picture, const ImuNoiseParams& assumed);
+
+/// @param assumed imu.noise as configured
+void checkRests(const std::string& topic, const RestPicture& picture, const ImuNoiseParams& assumed,
+                Findings& findings);
 
 }  // namespace slipnav

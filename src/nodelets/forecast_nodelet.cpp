@@ -9,15 +9,15 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <boost/make_shared.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/forecast/forecast_method.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/forecast_messages.h"
-#include "ros/messages/internal_messages.h"
-#include "ros/runtime/core_nodelet.h"
 #include "ros/runtime/internal_topics.h"
+#include "ros/runtime/nodelet_base.h"
 
 namespace slipnav {
 
@@ -30,7 +30,7 @@ constexpr double kSilence_s = 2.0;
 
 }  // namespace
 
-class ForecastNodelet : public CoreNodelet {
+class ForecastNodelet : public NodeletBase {
  public:
   ~ForecastNodelet() override { stop(); }
 
@@ -38,7 +38,7 @@ class ForecastNodelet : public CoreNodelet {
   void begin(const Config& config) override {
     frames_ = config.frames;
     model_ = config.forecast.slip.model;
-    forecaster_.emplace(Planet::byName(config.planet), config.navigation().filter, config.forecast);
+    forecaster_ = makeForecastMethod(Planet::byName(config.planet), config.navigation().filter, config.forecast);
   }
 
   void subscribe(const Config&) override {
@@ -91,7 +91,8 @@ class ForecastNodelet : public CoreNodelet {
     if (!forecaster_->problem().empty()) {
       return "no forecast: " + forecaster_->problem();
     }
-    const bool fitted = forecasts_ == 0 || fit_.status == SlipFitStatus::kConverged;
+    const bool fitted =
+        forecasts_ == 0 || fit_.status == SlipFitStatus::kConverged || fit_.status == SlipFitStatus::kTooFewSamples;
     return fitted ? "" : std::string("the fit did not converge: ") + toString(fit_.status);
   }
 
@@ -107,7 +108,8 @@ class ForecastNodelet : public CoreNodelet {
     } else if (lasts) {
       status.summary(DiagnosticStatus::WARN, trouble);
     } else {
-      status.summary(DiagnosticStatus::OK, forecasts_ > 0 ? "forecasting" : "collecting slip");
+      status.summary(DiagnosticStatus::OK,
+                     fit_.status == SlipFitStatus::kTooFewSamples ? "collecting slip" : "forecasting");
     }
     status.add("forecasts", forecasts_);
     status.addf("age of the forecast [s]", "%.1f", forecasts_ > 0 ? age_s : 0.0);
@@ -123,7 +125,7 @@ class ForecastNodelet : public CoreNodelet {
 
   FrameNames frames_;
   std::string model_;
-  std::optional<ForecastMethod> forecaster_;
+  std::unique_ptr<ForecastMethod> forecaster_;
   SlipFit fit_;
   double time_to_stop_s_ = 0.0;
   double computation_ms_ = 0.0;

@@ -11,33 +11,30 @@
 #include <std_srvs/Trigger.h>
 #include <pluginlib/class_list_macros.hpp>
 
-#include <algorithm>
 #include <boost/make_shared.hpp>
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
-#include "core/base/text.h"
-#include "core/navigation/patience.h"
-#include "core/navigation/resumption.h"
 #include "core/navigation/sample_merger.h"
+#include "core/navigation/settled_stamp.h"
+#include "core/navigation/starter.h"
 #include "core/ordering/stamp_watch.h"
 #include "ros/messages/conversions.h"
+#include "ros/messages/fix_input.h"
 #include "ros/messages/imu_input.h"
 #include "ros/messages/internal_messages.h"
 #include "ros/messages/start_reporter.h"
 #include "ros/messages/wheel_input.h"
-#include "ros/runtime/core_nodelet.h"
 #include "ros/runtime/health_report.h"
 #include "ros/runtime/internal_topics.h"
-#include "slipnav/core/navigation/initializer.h"
+#include "ros/runtime/nodelet_base.h"
+#include "slipnav/core/navigation/health.h"
 #include "slipnav/core/ordering/imu_clock.h"
 
 namespace slipnav {
 
-class InitializerNodelet : public CoreNodelet {
+class InitializerNodelet : public NodeletBase {
  public:
   ~InitializerNodelet() override { stop(); }
 
@@ -49,19 +46,15 @@ class InitializerNodelet : public CoreNodelet {
     const NavigationSetup setup = config.navigation();
     imu_input_.emplace(config);
     inputs_.emplace(config.navigation().filter);
-    fix_topic_ = config.topics.gps_fix;
-    fix_stamp_offset_ = fromSeconds(config.initialization.fix_stamp_offset_s);
+    fix_input_.emplace(config);
     stamps_.emplace(config.topics.imu);
     wheel_input_.emplace(config);
     clock_.emplace(setup.imu_input.gap_factor);
-    screen_.emplace(setup.imu_input);
     merger_.emplace(config.filter.max_wait_s);
-    trusted_ = TrustedStamp(patience());
-    resumption_.emplace(Planet::byName(config.planet), config.checkpoint, setup.filter);
-    for (const std::string& refused : resumption_->refused()) {
-      NODELET_WARN("%s", refused.c_str());
-    }
-    initializer_.emplace(Planet::byName(config.planet), setup.initialization, setup.imu_input, setup.filter);
+    trusted_ = SettledStamp(patience());
+    // Beyond the numbers of a previously unloaded initializer.
+    starter_.emplace(Planet::byName(config.planet), setup, config.checkpoint, static_cast<std::uint32_t>(now()));
+    publishNews();
   }
 
   std::string usualThread() const override { return kNavigationThread; }
@@ -74,7 +67,7 @@ class InitializerNodelet : public CoreNodelet {
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &InitializerNodelet::onWheels<nav_msgs::Odometry>);
     listen<sensor_msgs::NavSatFix>(config.topics.gps_fix, &InitializerNodelet::onFix);
     listen<geometry_msgs::TwistWithCovarianceStamped>(config.topics.gps_velocity, &InitializerNodelet::onVelocity);
-    serve("initialise", &InitializerNodelet::initialise);
+    serve("initialise", &InitializerNodelet::initialize);
     serve("reset", &InitializerNodelet::reset);
   }
 
@@ -83,7 +76,7 @@ class InitializerNodelet : public CoreNodelet {
     start_publisher_ = publisher<StartState>(kInitialStateTopic, true);
   }
 
-  void retune(const Config& config) override { initializer_->retune(config.navigation().filter); }
+  void retune(const Config& config) override { starter_->retune(config.navigation().filter); }
 
   void onImu(const sensor_msgs::Imu::ConstPtr& message) {
     const std::optional<ImuSample> sample = imu_input_->take(*message);
@@ -94,63 +87,17 @@ class InitializerNodelet : public CoreNodelet {
     stamps_->noteImu(sample->stamp);
     merger_->push(*sample);
     trusted_.push(merger_->newestImuStamp(), now());
-    takeOver(merger_->newestImuTime());
-    resume(merger_->newestImuTime());
+    starter_->resumeAt(merger_->newestImuTime());
+    publishNews();
     proceed();
   }
 
-  void onHandOver(const StartState::ConstPtr& message) {
-    if (start_ == 0) {
-      running_ = message;
-    } else if (message->known && message->start == start_ && message->session == session_) {
-      resumption_->offer(fromMessage(*message));
-    }
-  }
-
-  /// Loaded while an estimate is running: there is nothing to search for, unless it is from before the clock went
-  /// back.
-  void takeOver(Nanoseconds stamp) {
-    if (stamp == 0) {
-      return;
-    }
-    const StartState::ConstPtr running = std::exchange(running_, nullptr);
-    if (start_ != 0 || !running || !running->known || stamp <= toNanoseconds(running->state.stamp) - kRestartBackstep) {
-      return;
-    }
-    start_ = running->start;
-    session_ = running->session;
-    done_ = true;
-    const InitialState state = fromMessage(*running);
-    resumption_->offer(state);
-    publishStart(state, running, "continued with the running estimate");
-  }
+  void onHandOver(const StartState::ConstPtr& message) { starter_->offer(fromMessage(*message)); }
 
   /// The filter was reloaded.
   void onStartRequest(const std_msgs::UInt32::ConstPtr& message) {
-    if (!done_ || message->data != start_) {
-      return;
-    }
-    done_ = false;
-    resume(merger_->newestImuTime());
-    if (!done_) {
-      NODELET_WARN("the filter has lost the estimate: a new start");
-      searchAnew();
-    }
-  }
-
-  /// Resumes from where an estimate ended, if that is known and usable.
-  void resume(Nanoseconds stamp) {
-    if (done_ || stamp == 0 || !resumption_->isPossible()) {
-      return;
-    }
-    try {
-      const InitialState initial = resumption_->resume(stamp);
-      done_ = true;
-      const double unwatched_s = std::round(10.0 * resumption_->unwatched()) / 10.0;
-      announce(initial, "resumed " + formatNumber(unwatched_s) + " s after the last known state");
-    } catch (const std::invalid_argument& error) {
-      NODELET_WARN("a new start: %s", error.what());
-    }
+    starter_->replace(message->data, merger_->newestImuTime());
+    publishNews();
   }
 
   template <class Message>
@@ -169,19 +116,15 @@ class InitializerNodelet : public CoreNodelet {
   void noteProblem(const std::string& problem) {
     if (!problem.empty()) {
       inputs_->note(problem, fromSeconds(now()));
-      NODELET_WARN_THROTTLE(10.0, "%s", problem.c_str());
+      complain(problem);
     }
   }
 
   void onFix(const sensor_msgs::NavSatFix::ConstPtr& message) {
-    const std::string complaint = complaintOf(*message, fix_topic_);
-    noteProblem(complaint);
-    if (!complaint.empty()) {
-      return;
-    }
-    if (std::optional<GnssFix> fix = toGnssFix(*message)) {
-      fix->stamp += fix_stamp_offset_;
-      watch(fix_topic_, fix->stamp);
+    const std::optional<GnssFix> fix = fix_input_->take(*message);
+    noteProblem(fix_input_->problem());
+    if (fix) {
+      watch(fix_input_->topic(), fix->stamp);
       merger_->push(toPositionFix(*fix));
       proceed();
     }
@@ -189,7 +132,7 @@ class InitializerNodelet : public CoreNodelet {
 
   void onVelocity(const geometry_msgs::TwistWithCovarianceStamped::ConstPtr& message) {
     if (std::optional<VelocityFix> fix = toVelocityFix(*message)) {
-      fix->stamp += fix_stamp_offset_;
+      fix->stamp += fix_input_->stampOffset();
       merger_->push(*fix);
       proceed();
     }
@@ -214,94 +157,54 @@ class InitializerNodelet : public CoreNodelet {
   void use(const ImuSample& sample) {
     clock_->push(sample);
     while (const std::optional<ImuSample> corrected = clock_->pop()) {
-      judge(*corrected);
+      take(*corrected);
     }
   }
-  void judge(const ImuSample& sample) {
-    ImuVerdict verdict = screen_->check(sample).verdict;
-    if (verdict == ImuVerdict::kTimeWentBack) {
-      screen_->reset();
-      initializer_->reset();
-      resumption_->forget();
-      ++session_;
-      done_ = false;
-      verdict = screen_->check(sample).verdict;
-    }
-    if (isAccepted(verdict)) {
-      useWhileSearching(sample);
-      watchWhenDone(sample);
-    }
-  }
-  void use(const WheelMotion& wheels) {
-    useWhileSearching(wheels);
-    watchWhenDone(wheels);
-  }
-  void use(const AntennaFix& fix) { useWhileSearching(fix); }
+  void use(const WheelMotion& wheels) { take(wheels); }
+  void use(const AntennaFix& fix) { take(fix); }
 
   template <class CoreSample>
-  void useWhileSearching(const CoreSample& sample) {
-    if (done_) {
+  void take(const CoreSample& sample) {
+    starter_->push(sample);
+    publishNews();
+    if (!initializer().complaint().empty()) {
+      complain(initializer().complaint());
+    }
+  }
+
+  void searchAgain(bool forget_files, std_srvs::Trigger::Response& response) {
+    starter_->searchAgain(forget_files);
+    publishNews();
+    response.message = reporter_->progress();
+  }
+
+  void initialize(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    searchAgain(false, response);
+  }
+
+  void reset(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) { searchAgain(true, response); }
+
+  void publishNews() {
+    for (const std::string& warning : starter_->takeWarnings()) {
+      NODELET_WARN("%s", warning.c_str());
+    }
+    const std::optional<Starter::News> news = starter_->takeNews();
+    if (!news) {
       return;
     }
-    initializer_->push(sample);
-    if (const std::optional<InitialState> initial = initializer_->result()) {
-      done_ = true;
-      announce(*initial, "done");
-    }
-  }
-
-  template <class CoreSample>
-  void watchWhenDone(const CoreSample& sample) {
-    if (done_) {
-      initializer_->watch(sample);
-    }
-    if (!initializer_->complaint().empty()) {
-      NODELET_WARN_THROTTLE(10.0, "%s", initializer_->complaint().c_str());
-    }
-  }
-
-  /// Ends the estimate and searches for a new start.
-  void searchAnew() {
-    initializer_->reset();
-    resumption_->forget();
-    done_ = false;
-    start_publisher_.publish(nextStart());
-    reportProgress();
-  }
-
-  void initialise(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    searchAnew();
-    response.message = reporter_->progress();
-  }
-
-  void reset(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    resumption_->deleteFiles();
-    searchAnew();
-    response.message = reporter_->progress();
-  }
-
-  boost::shared_ptr<StartState> nextStart() {
-    ++starts_;
-    start_ = std::max(start_, first_start_) + 1;
     const auto message = boost::make_shared<StartState>();
-    message->start = start_;
-    message->session = session_;
-    return message;
-  }
-
-  void announce(const InitialState& initial, const std::string& how) {
-    const boost::shared_ptr<StartState> message = nextStart();
-    fill(initial, *message);
-    publishStart(initial, message, how);
-  }
-
-  void publishStart(const InitialState& initial, const StartState::ConstPtr& message, const std::string& how) {
+    fill(news->start, *message);
     start_publisher_.publish(message);
-    NODELET_INFO("%s", reporter_->end(initial, how).c_str());
+    if (news->start.state) {
+      NODELET_INFO("%s", reporter_->end(*news->start.state, news->how).c_str());
+    } else {
+      reportProgress();
+    }
   }
 
   void reportProgress() {
-    const std::string line = done_ ? "" : reporter_->search(initializer_->progress(), screen_->newestStamp());
+    const std::string line =
+        starter_->isDone() ? "" : reporter_->search(initializer().progress(), starter_->newestStamp());
     if (!line.empty()) {
       NODELET_INFO("%s", line.c_str());
     }
@@ -309,38 +212,31 @@ class InitializerNodelet : public CoreNodelet {
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) override {
     using diagnostic_msgs::DiagnosticStatus;
-    status.summary(done_ ? DiagnosticStatus::OK : DiagnosticStatus::WARN, reporter_ ? reporter_->progress() : "");
-    if (initializer_ && !initializer_->complaint().empty()) {
-      status.summary(DiagnosticStatus::ERROR, initializer_->complaint());
+    const bool done = starter_ && starter_->isDone();
+    status.summary(done ? DiagnosticStatus::OK : DiagnosticStatus::WARN, reporter_ ? reporter_->progress() : "");
+    if (starter_ && !initializer().complaint().empty()) {
+      status.summary(DiagnosticStatus::ERROR, initializer().complaint());
     }
     if (inputs_) {
       alarms_.add(*inputs_, now(), status);
     }
-    status.add("restarts of the clock", session_);
-    status.add("starts", starts_);
+    status.add("restarts of the clock", starter_ ? starter_->session() : 0);
+    status.add("starts", starter_ ? starter_->starts() : 0);
     status.add("samples with a wrong stamp", merger_ ? merger_->leftOut() : 0);
   }
+
+  const Initializer& initializer() const { return starter_->initializer(); }
 
   std::optional<ImuInput> imu_input_;
   HealthReport alarms_;
   std::optional<HealthMonitor> inputs_;  ///< problems with messages, in real time
-  std::string fix_topic_;
-  Nanoseconds fix_stamp_offset_ = 0;
+  std::optional<FixInput> fix_input_;
   std::optional<WheelInput> wheel_input_;
   std::optional<ImuClock> clock_;
-  std::optional<ImuScreen> screen_;
   std::optional<SampleMerger> merger_;
-  std::optional<Initializer> initializer_;
-  std::optional<Resumption> resumption_;
-  TrustedStamp trusted_;
+  std::optional<Starter> starter_;
+  SettledStamp trusted_;
   std::optional<StampWatch> stamps_;
-  StartState::ConstPtr running_;  ///< of the estimate that was running before this nodelet
-  std::uint32_t session_ = 0;     ///< restarts of the IMU clock
-  std::uint32_t starts_ = 0;      ///< initial states announced, and searches restarted
-  std::uint32_t start_ = 0;       ///< count of the newest of them
-  /// Counts start here: beyond those of a previously unloaded initializer.
-  const std::uint32_t first_start_ = static_cast<std::uint32_t>(now());
-  bool done_ = false;
   SharedPublisher<StartState> start_publisher_;
   std::unique_ptr<StartReporter> reporter_;
 };

@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "ros/messages/legacy_messages.h"
-#include "ros/runtime/core_nodelet.h"
+#include "ros/runtime/nodelet_base.h"
 
 namespace slipnav {
 
@@ -23,7 +23,7 @@ constexpr double kSilence_s = 2.0;  // without an estimate
 
 }  // namespace
 
-class LegacyBridgeNodelet : public CoreNodelet {
+class LegacyBridgeNodelet : public NodeletBase {
  public:
   ~LegacyBridgeNodelet() override { stop(); }
 

@@ -24,8 +24,8 @@
 #include "ros/messages/conversions.h"
 #include "ros/messages/imu_input.h"
 #include "ros/messages/wheel_input.h"
-#include "ros/runtime/core_nodelet.h"
 #include "ros/runtime/internal_topics.h"
+#include "ros/runtime/nodelet_base.h"
 #include "ros/rviz/model_joints.h"
 #include "ros/rviz/overlay_markers.h"
 
@@ -43,7 +43,7 @@ constexpr double kSilence_s = 2.0;
 
 }  // namespace
 
-class OverlayNodelet : public CoreNodelet {
+class OverlayNodelet : public NodeletBase {
  public:
   ~OverlayNodelet() override {
     transforms_.shutdown();
@@ -233,7 +233,7 @@ class OverlayNodelet : public CoreNodelet {
   std::optional<Planet> planet_;
   std::optional<ImuInput> imu_input_;
   std::optional<WheelInput> wheel_input_;
-  std::optional<DrivePicture> picture_;
+  std::optional<DriveView> picture_;
   std::optional<OverlayMarkers> markers_;
   OverlayMessages messages_;
   SilenceWatch estimates_watch_{kSilence_s};

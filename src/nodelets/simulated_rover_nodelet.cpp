@@ -12,7 +12,7 @@
 #include "evaluation/simulated_drive.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/stop_messages.h"
-#include "ros/runtime/core_nodelet.h"
+#include "ros/runtime/nodelet_base.h"
 #include "ros/simulation/sensor_publisher.h"
 
 namespace slipnav {
@@ -26,7 +26,7 @@ constexpr double kMostBehind_s = 1.0;
 
 }  // namespace
 
-class SimulatedRoverNodelet : public CoreNodelet {
+class SimulatedRoverNodelet : public NodeletBase {
  public:
   ~SimulatedRoverNodelet() override { stop(); }
 

@@ -30,8 +30,8 @@
 #include "ros/messages/stop_messages.h"
 #include "ros/replay/endurance_watch.h"
 #include "ros/replay/node_process.h"
-#include "ros/runtime/core_nodelet.h"
 #include "ros/runtime/internal_topics.h"
+#include "ros/runtime/nodelet_base.h"
 #include "ros/simulation/sensor_publisher.h"
 #include "ros/simulation/simulation_result.h"
 #include "slipnav/core/navigation/pipeline.h"
@@ -48,7 +48,7 @@ constexpr double kStartLag_s = 1.0;
 
 }  // namespace
 
-class SimulatorNodelet : public CoreNodelet {
+class SimulatorNodelet : public NodeletBase {
  public:
   ~SimulatorNodelet() override { stop(); }
 
@@ -85,7 +85,7 @@ class SimulatorNodelet : public CoreNodelet {
     allowed_until_ = drive_->truth().stamp;
   }
 
-  std::unique_ptr<DriveJudge> makeJudge(const Config& config, const Planet& planet) {
+  std::unique_ptr<DriveEvaluator> makeJudge(const Config& config, const Planet& planet) {
     if (options_->endurance_h == 0.0) {
       return std::make_unique<SimulationResult>(config, options_->out, options_->report,
                                                 options_->policy == "autonomous");
@@ -304,7 +304,7 @@ class SimulatorNodelet : public CoreNodelet {
   std::optional<Pipeline> twin_;
   Nanoseconds twin_stamp_ = 0;  ///< of its newest estimate
   Nanoseconds twin_start_ = 0;  ///< when it had its first one
-  std::unique_ptr<DriveJudge> judge_;
+  std::unique_ptr<DriveEvaluator> judge_;
   std::optional<BagWriter> bag_;
   Waiting waiting_ = Waiting::kForNodelets;
   double waiting_since_s_ = now();

@@ -27,16 +27,15 @@
 #include "core/stopping/stop_verdict.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/stop_messages.h"
-#include "ros/messages/stop_outputs.h"
-#include "ros/runtime/core_nodelet.h"
 #include "ros/runtime/fit_to_drive.h"
 #include "ros/runtime/internal_topics.h"
+#include "ros/runtime/nodelet_base.h"
 #include "ros/runtime/stop_latch_keeper.h"
 #include "ros/runtime/topic_graph.h"
 
 namespace slipnav {
 
-class StopSupervisorNodelet : public CoreNodelet {
+class StopSupervisorNodelet : public NodeletBase {
  public:
   ~StopSupervisorNodelet() override { stop(); }
 

@@ -60,13 +60,17 @@ void TruthFollower::push(const Waiting& truth) {
 
 void TruthFollower::add(const GnssFix& fix) {
   if (prefers(TruthSource::kFix, fix.stamp)) {
-    push(fix);
+    GnssFix shifted = fix;
+    shifted.stamp += fromSeconds(params_.stamp_offset_s);
+    push(shifted);
   }
 }
 
 void TruthFollower::add(TruthSource source, const TruthSample& pose) {
   if (prefers(source, pose.stamp)) {
-    push(pose);
+    TruthSample shifted = pose;
+    shifted.stamp += fromSeconds(params_.stamp_offset_s);
+    push(shifted);
   }
 }
 

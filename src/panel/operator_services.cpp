@@ -45,32 +45,34 @@ std::string reconfigure(const std::string& name, const dynamic_reconfigure::Conf
 
 }  // namespace
 
-void OperatorServices::start(std::function<std::string()> call) {
-  if (call_.valid()) {
-    waiting_.push_back(std::move(call));
+void OperatorServices::start(const std::string& service, Call call) {
+  Line& line = lines_[service];
+  if (line.current.valid()) {
+    line.waiting.push_back(std::move(call));
     return;
   }
-  call_ = std::async(std::launch::async, std::move(call));
+  line.current = std::async(std::launch::async, std::move(call));
 }
 
 void OperatorServices::trigger(const std::string& service) {
-  start([name = node_.resolveName(service)] { return callService(name, std_srvs::Trigger()); });
+  start(service, [name = node_.resolveName(service)] { return callService(name, std_srvs::Trigger()); });
 }
 
 void OperatorServices::set(const std::string& service, bool on) {
   std_srvs::SetBool request;
   request.request.data = on ? 1 : 0;
-  start([name = node_.resolveName(service), request] { return callService(name, request); });
+  start(service, [name = node_.resolveName(service), request] { return callService(name, request); });
 }
 
 void OperatorServices::tune(const std::string& service, const std::string& key, const std::string& text) {
   const dynamic_reconfigure::Config values = toValues({{key, text, {}, {}, ""}});
-  start([name = node_.resolveName(service), values, key, text] { return reconfigure(name, values, key, text); });
+  start(service,
+        [name = node_.resolveName(service), values, key, text] { return reconfigure(name, values, key, text); });
 }
 
 void OperatorServices::tune(const std::string& service, const std::string& key, double value) {
   const dynamic_reconfigure::Config values = toValues({{key, value, {}, {}, ""}});
-  start([name = node_.resolveName(service), values, key, wanted = toText(ParameterValue(value))] {
+  start(service, [name = node_.resolveName(service), values, key, wanted = toText(ParameterValue(value))] {
     return reconfigure(name, values, key, wanted);
   });
 }
@@ -99,15 +101,18 @@ bool OperatorServices::isThere(const std::string& service) {
 }
 
 std::optional<std::string> OperatorServices::answer() {
-  if (!isDone(call_)) {
-    return std::nullopt;
+  for (auto& [service, line] : lines_) {
+    if (!isDone(line.current)) {
+      continue;
+    }
+    const std::string words = line.current.get();
+    if (!line.waiting.empty()) {
+      start(service, std::move(line.waiting.front()));
+      line.waiting.pop_front();
+    }
+    return words;
   }
-  const std::string words = call_.get();
-  if (!waiting_.empty()) {
-    start(std::move(waiting_.front()));
-    waiting_.pop_front();
-  }
-  return words;
+  return std::nullopt;
 }
 
 }  // namespace slipnav

@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 #include <future>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -21,7 +22,8 @@ inline constexpr const char* kCheckpointService = "filter/save_checkpoint";
 inline constexpr const char* kSupervisorParameters = "stop_supervisor/set_parameters";
 inline constexpr const char* kForecastParameters = "forecast/set_parameters";
 
-/// Calls are made in order, none is dropped, and one availability check at a time, each in its own thread.
+/// Calls of one service are made in order and none is dropped. No service waits for another: an emergency stop must not
+/// be held up by one that hangs. One availability check at a time. Each of these in its own thread.
 class OperatorServices {
  public:
   explicit OperatorServices(const std::string& name_space) : node_(name_space) {}
@@ -36,15 +38,22 @@ class OperatorServices {
   void look();
   /// As of the last completed check.
   bool isThere(const std::string& service);
-  /// The answer to the last call, once; nothing until there is one.
+  /// The answer to a call, once; nothing until there is one.
   std::optional<std::string> answer();
 
  private:
-  void start(std::function<std::string()> call);
+  using Call = std::function<std::string()>;
+
+  /// The calls of one service.
+  struct Line {
+    std::future<std::string> current;
+    std::deque<Call> waiting;
+  };
+
+  void start(const std::string& service, Call call);
 
   ros::NodeHandle node_;
-  std::future<std::string> call_;
-  std::deque<std::function<std::string()>> waiting_;
+  std::map<std::string, Line> lines_;
   std::future<std::set<std::string>> look_;
   std::set<std::string> there_;
 };

@@ -11,6 +11,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include <boost/function.hpp>
+#include <cstdint>
 
 #include "config/topics.h"
 #include "panel/bound_chart.h"
@@ -22,9 +23,11 @@ namespace {
 
 constexpr int kRefresh_ms = 200;
 constexpr double kLook_s = 1.0;
-constexpr double kReleaseWindow_s = 3.0;  // between the two clicks that end an emergency stop
+constexpr std::uint32_t kMostWaiting = 100;  // messages while the window is busy
+constexpr double kReleaseWindow_s = 3.0;     // between the two clicks that end an emergency stop
 constexpr int kMostAlarms = 4;
 constexpr double kUnknownThreshold = 0.0;
+constexpr int kNoMode = -1;
 const char* const kModes[] = {"off", "advise", "active"};  // by the numbers of slipnav/StopStatus
 
 double now() { return ros::SteadyTime::now().toSec(); }
@@ -90,7 +93,7 @@ template <class Message>
 void StopPanel::listen(const std::string& topic) {
   const boost::function<void(const boost::shared_ptr<const Message>&)> take =
       [this](const boost::shared_ptr<const Message>& message) { view_.take(*message, now()); };
-  subscribers_.push_back(node_.subscribe<Message>(topic, 10, take));
+  subscribers_.push_back(node_.subscribe<Message>(topic, kMostWaiting, take));
 }
 
 void StopPanel::buildWords() {
@@ -126,14 +129,14 @@ void StopPanel::buildButtons() {
   scaleFont(emergency_, 1.4);
   stop_now_ = button("stop_now", "&Stop now", [this] { services_->trigger(kStopNowService); });
   override_ = button("override", "&Override", [this] { services_->set(kOverrideService, !shown_.overridden); });
-  initialise_ = button("initialise", "&Initialise", [this] { services_->trigger(kInitialiseService); });
+  initialize_ = button("initialise", "&Initialize", [this] { services_->trigger(kInitialiseService); });
   checkpoint_ = button("checkpoint", "Save &checkpoint", [this] { services_->trigger(kCheckpointService); });
   mode_ = new QComboBox(this);
   mode_->setObjectName("mode");
   for (const char* mode : kModes) {
     mode_->addItem(mode);
   }
-  mode_->setCurrentIndex(-1);  // until it is known
+  mode_->setCurrentIndex(kNoMode);  // until it is known
   connect(mode_, QOverload<int>::of(&QComboBox::activated), this,
           [this](int index) { services_->tune(kSupervisorParameters, "stop.mode", std::string(kModes[index])); });
   threshold_ = new QDoubleSpinBox(this);
@@ -148,7 +151,7 @@ void StopPanel::buildButtons() {
   auto* grid = new QGridLayout;
   grid->addWidget(stop_now_, 0, 0, 1, 2);
   grid->addWidget(override_, 0, 2, 1, 2);
-  grid->addWidget(initialise_, 1, 0, 1, 2);
+  grid->addWidget(initialize_, 1, 0, 1, 2);
   grid->addWidget(checkpoint_, 1, 2, 1, 2);
   grid->addWidget(new QLabel("mode", this), 2, 0);
   grid->addWidget(mode_, 2, 1);
@@ -222,7 +225,7 @@ void StopPanel::showButtons(const OperatorPicture& picture) {
   enable(emergency_, kEmergencyStopService, false, picture);
   enable(stop_now_, kStopNowService, true, picture);
   enable(override_, kOverrideService, false, picture);
-  enable(initialise_, kInitialiseService, false, picture);
+  enable(initialize_, kInitialiseService, false, picture);
   enable(checkpoint_, kCheckpointService, false, picture);
   enable(mode_, kSupervisorParameters, true, picture);
   enable(threshold_, kForecastParameters, false, picture);
@@ -233,7 +236,7 @@ void StopPanel::showButtons(const OperatorPicture& picture) {
                                                      : "background: #b01818; color: white;");
   override_->setText(picture.overridden ? "End &override" : "&Override");
   if (!mode_->hasFocus() && !picture.isStale()) {
-    mode_->setCurrentIndex(picture.mode);
+    mode_->setCurrentIndex(picture.mode.value_or(kNoMode));
   }
   if (!threshold_->hasFocus() && picture.threshold_m > 0.0) {
     threshold_->setValue(picture.threshold_m);

@@ -61,7 +61,7 @@ class StopPanel : public rviz::Panel {
   QPushButton* emergency_ = nullptr;
   QPushButton* stop_now_ = nullptr;
   QPushButton* override_ = nullptr;
-  QPushButton* initialise_ = nullptr;
+  QPushButton* initialize_ = nullptr;
   QPushButton* checkpoint_ = nullptr;
   QComboBox* mode_ = nullptr;
   QDoubleSpinBox* threshold_ = nullptr;

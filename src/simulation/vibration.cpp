@@ -8,7 +8,7 @@ namespace slipnav::sim {
 namespace {
 
 /// A rover at rest vibrates from its fans and the wind; 1σ of the velocity.
-constexpr double kTremor_mps = 1e-4;
+constexpr double kStandstillNoise_mps = 1e-4;
 
 }  // namespace
 
@@ -16,7 +16,7 @@ Vibration::Vibration(const GroundParams& ground, double factor, double rate_hz, 
     // offsets are independent from interval to interval; their first and second differences over the interval have the
     // deviations of the vibration at rest, and of the ground's effect on specific force and rate
     : offset_sigma_(std::sqrt(1.0 / 6.0) * factor * ground.vibration_mps2 / (rate_hz * rate_hz)),
-      tremor_sigma_(std::sqrt(0.5) * factor * kTremor_mps / rate_hz),
+      tremor_sigma_(std::sqrt(0.5) * factor * kStandstillNoise_mps / rate_hz),
       angle_sigma_(std::sqrt(0.5) * factor * ground.vibration_radps / rate_hz),
       stream_(seed, "vibration") {}
 

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "calibration/calibration_report.h"
-#include "config/config_options.h"
+#include "config/config.h"
 #include "core/base/atomic_file.h"
 #include "ros/bag/bag_calibration.h"
 

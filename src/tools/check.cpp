@@ -3,7 +3,7 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "config/config_options.h"
+#include "config/config.h"
 #include "core/base/atomic_file.h"
 #include "inspection/configuration_proposal.h"
 #include "inspection/inspection.h"
@@ -21,6 +21,7 @@ CommandLine commandLine() {
                            "status: 0 usable, 1 doubtful, 2 not usable.");
   command_line.positionals("BAG", "ROS 1 recording; several are parts of one drive")
       .option("truth", "TOPIC|FILE.pos", "truth: a topic of the recording or an RTKLIB solution; default: by its name")
+      .option("sensor", "YAML", "data sheet of the IMU, as in config/grades; what the drive shows beyond it is written")
       .option("wheel-radius", "M", "of all wheels, if no configuration gives it", "0")
       .option("out", "YAML", "configuration to write: what the drive determines reliably, with reasons");
   slipnav::declareConfigOptions(command_line);
@@ -35,6 +36,9 @@ slipnav::InspectionOptions optionsFrom(const Arguments& arguments) {
   slipnav::InspectionOptions options;
   options.truth = arguments.text("truth");
   options.wheel_radius_m = arguments.number("wheel-radius", {0.0, 10.0});
+  if (arguments.given("sensor")) {
+    options.sensor = slipnav::Config::load({arguments.text("sensor")}).imu.noise;
+  }
   if (hasConfiguration(arguments)) {
     options.config = slipnav::configFromOptions(arguments);
   }

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "config/command_line.h"
-#include "config/config_options.h"
+#include "config/config.h"
 #include "config/markdown_writer.h"
 #include "config/tuning.h"
 #include "config/yaml_writer.h"

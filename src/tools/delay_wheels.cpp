@@ -9,7 +9,7 @@
 #include <iostream>
 #include <random>
 
-#include "config/config_options.h"
+#include "config/config.h"
 
 namespace {
 

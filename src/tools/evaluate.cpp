@@ -1,20 +1,17 @@
 /// Runs the pipeline on a recording and measures it against its truth.
 
-#include <algorithm>
-#include <cctype>
 #include <iostream>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "config/config_options.h"
+#include "config/config.h"
 #include "core/base/atomic_file.h"
 #include "evaluation/alarm_text.h"
 #include "evaluation/loop_closure.h"
 #include "evaluation/report.h"
 #include "evaluation/tum.h"
 #include "ros/bag/bag_evaluation.h"
-#include "ros/bag/bag_poses.h"
+#include "ros/bag/other_systems.h"
 
 namespace {
 
@@ -54,38 +51,6 @@ std::vector<std::string> partsOf(const Arguments& arguments) {
   return parts;
 }
 
-bool isName(const std::string& text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
-  });
-}
-
-bool isTumFile(const std::string& source) {
-  constexpr const char* kEnding = ".tum";
-  return source.size() > 4 && source.compare(source.size() - 4, 4, kEnding) == 0;
-}
-
-/// Before the run, so that a wrong name does not cost one.
-std::vector<std::pair<std::string, std::vector<slipnav::TumPose>>> othersOf(const Arguments& arguments) {
-  std::vector<std::pair<std::string, std::vector<slipnav::TumPose>>> others;
-  others.reserve(arguments.all("compare").size());
-  for (const std::string& text : arguments.all("compare")) {
-    const std::size_t equals = text.find('=');
-    const std::string name = text.substr(0, equals);
-    if (equals == std::string::npos || equals + 1 == text.size() || !isName(name)) {
-      throw slipnav::UsageError("--compare takes NAME=TOPIC or NAME=FILE.tum, the name of letters, digits, _ and -: '" +
-                                text + "'");
-    }
-    if (std::any_of(others.begin(), others.end(), [&name](const auto& other) { return other.first == name; })) {
-      throw slipnav::UsageError("--compare has the name '" + name + "' twice");
-    }
-    const std::string source = text.substr(equals + 1);
-    others.emplace_back(name,
-                        isTumFile(source) ? slipnav::readTum(source) : slipnav::readPoses(partsOf(arguments), source));
-  }
-  return others;
-}
-
 void printFindings(const slipnav::BagEvaluation& evaluation) {
   slipnav::Alarms others = evaluation.alarms;
   for (const auto& problem : evaluation.problems) {
@@ -119,13 +84,11 @@ int run(int argc, char** argv) {
   checkArguments(arguments);
   const std::string& bag = arguments.text("BAG");
   const slipnav::Config config = slipnav::configFromOptions(arguments);
-  const auto others = othersOf(arguments);
+  const std::vector<slipnav::OtherSystem> others =  // before the run, so that a wrong name does not cost one
+      slipnav::readOtherSystems(arguments.all("compare"), partsOf(arguments));
   slipnav::BagEvaluation evaluation = evaluated(config, arguments);
   slipnav::RunReport& report = evaluation.report;
-  report.others.reserve(others.size());
-  for (const auto& [name, poses] : others) {
-    report.others.push_back(slipnav::besideTheEstimate(name, poses, report.estimates, report.truth));
-  }
+  slipnav::addOtherSystems(others, report);
   if (arguments.given("returns-to-start")) {
     slipnav::addLoopClosure(report.estimates, config.filter.uses("zupt"), report.metrics);
   }

@@ -7,7 +7,7 @@
 #include <optional>
 #include <random>
 
-#include "config/config_options.h"
+#include "config/config.h"
 #include "core/base/atomic_file.h"
 #include "evaluation/simulated_drive.h"
 #include "ros/bag/bag_evaluation.h"

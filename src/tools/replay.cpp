@@ -2,6 +2,7 @@
 /// behind replay.launch.
 
 #include <ros/ros.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <iostream>
 
@@ -9,9 +10,12 @@
 #include "evaluation/report.h"
 #include "evaluation/track_comparison.h"
 #include "ros/bag/bag_evaluation.h"
+#include "ros/bag/other_systems.h"
 #include "ros/replay/replay_session.h"
+#include "ros/runtime/internal_topics.h"
 #include "ros/runtime/parameters.h"
 #include "ros/runtime/ros_arguments.h"
+#include "ros/rviz/compared_tracks.h"
 
 namespace {
 
@@ -28,6 +32,8 @@ CommandLine commandLine() {
       .option("truth", "TOPIC|FILE.pos", "truth: a topic of the recording or an RTKLIB solution")
       .option("out", "DIR", "where metrics.json and the other results go")
       .option("odometry", "FILE", "every message of `odometry` as bytes, to compare runs with")
+      .repeated("compare", "NAME=TOPIC|NAME=FILE.tum", "another system's poses on the same drive, also shown in rviz")
+      .option("folder", "DIR", "where relative paths of --compare begin", ".")
       .option("tree", "NAME", "parameter tree of the configuration", "slipnav")
       .flag("report", "plots into the same place");
   return command_line;
@@ -42,6 +48,17 @@ slipnav::ReplayOptions optionsOf(const Arguments& arguments) {
   return options;
 }
 
+/// Latched: rviz may come later.
+ros::Publisher showCompared(const std::vector<slipnav::OtherSystem>& systems, const slipnav::RunReport& report,
+                            const slipnav::Config& config) {
+  slipnav::RunReport compared = report;
+  slipnav::addOtherSystems(systems, compared);
+  ros::Publisher publisher =
+      ros::NodeHandle().advertise<visualization_msgs::MarkerArray>(slipnav::kComparedTopic, 1, true);
+  publisher.publish(slipnav::comparedTracks(compared.others, config.frames.map));
+  return publisher;
+}
+
 int run(int argc, char** argv) {
   const CommandLine command_line = commandLine();
   const Arguments arguments = slipnav::parseWithoutRosArguments(command_line, argc, argv);
@@ -52,16 +69,19 @@ int run(int argc, char** argv) {
   ros::init(argc, argv, "replay");
   const slipnav::Config config = slipnav::configFromParameters(ros::NodeHandle(), arguments.text("tree"));
   const slipnav::ReplayOptions options = optionsOf(arguments);
+  const std::vector<slipnav::OtherSystem> systems =
+      slipnav::readOtherSystems(arguments.all("compare"), {options.bag}, arguments.text("folder"));
   const slipnav::BagEvaluation offline =
       slipnav::evaluateBag(options.bag, config, arguments.text("truth"), {options.start_s, options.duration_s});
-
+  const ros::Publisher compared = showCompared(systems, offline.report, config);
   slipnav::ReplaySession session(config.topics);
   session.waitForNodelets();
   const ros::SteadyTime begin = ros::SteadyTime::now();
   session.play(options, offline.report.estimates.back().stamp);
   const double wall_s = (ros::SteadyTime::now() - begin).toSec();
 
-  const slipnav::RunReport report = slipnav::withEstimates(offline.report, session.recorder().track(), wall_s);
+  slipnav::RunReport report = slipnav::withEstimates(offline.report, session.recorder().track(), wall_s);
+  slipnav::addOtherSystems(systems, report);
   if (arguments.given("out")) {
     slipnav::writeRunReport(arguments.text("out"), report);
   }
@@ -72,7 +92,7 @@ int run(int argc, char** argv) {
     session.odometry().write(arguments.text("odometry"));
   }
   std::cout << slipnav::comparisonText("replay", report.estimates, offline.report.estimates) << slipnav::tableHeader()
-            << slipnav::tableRow(slipnav::runName(options.bag), std::nullopt, report.metrics) << std::flush;
+            << slipnav::tableRows(slipnav::runName(options.bag), std::nullopt, report) << std::flush;
   return 0;
 }
 

@@ -36,8 +36,13 @@ std::vector<double> gainsOver(const DriveLikelihood& base, const DriveLikelihood
   return gains;
 }
 
-GainMeter::GainMeter(std::vector<Knob> knobs, std::vector<TuningDrive> drives, std::function<void()> on_run)
-    : knobs_(std::move(knobs)), drives_(std::move(drives)), on_run_(std::move(on_run)), cores_(coreCount()) {
+GainMeter::GainMeter(std::vector<Knob> knobs, std::vector<TuningDrive> drives, TuningRuns runs,
+                     std::function<void()> on_run)
+    : knobs_(std::move(knobs)),
+      drives_(std::move(drives)),
+      runs_(std::move(runs)),
+      on_run_(std::move(on_run)),
+      cores_(runs_.slots) {
   base_ = run(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(knobs_.size())), everything());
 }
 
@@ -52,7 +57,9 @@ DriveParts GainMeter::everything() const {
 DriveLikelihood GainMeter::runDrive(const Eigen::VectorXd& position, std::size_t drive, std::size_t stretches) {
   DriveLikelihood likelihood;
   cores_.run([&] {
-    likelihood = likelihoodOf(drives_[drive], withKnobs(drives_[drive].config, knobs_, position), stretches);
+    likelihood = runs_.elsewhere
+                     ? runs_.elsewhere({drive, stretches, position})
+                     : likelihoodOf(drives_[drive], withKnobs(drives_[drive].config, knobs_, position), stretches);
   });
   on_run_();
   return likelihood;
@@ -64,7 +71,7 @@ std::vector<DriveLikelihood> GainMeter::run(const Eigen::VectorXd& position, con
     stretches[part.drive] = std::max(stretches[part.drive], part.end);
   }
   std::vector<DriveLikelihood> likelihoods(drives_.size());
-  parallelFor(drives_.size(), coreCount(), [&](std::size_t drive) {
+  parallelFor(drives_.size(), slots(), [&](std::size_t drive) {
     if (stretches[drive] > 0) {
       likelihoods[drive] = runDrive(position, drive, stretches[drive]);
     }
@@ -84,7 +91,7 @@ double GainMeter::gain(const Eigen::VectorXd& position, const DriveParts& parts)
 
 std::vector<double> GainMeter::gains(const std::vector<Eigen::VectorXd>& positions, const DriveParts& parts) {
   std::vector<double> gains(positions.size());
-  parallelFor(positions.size(), coreCount(), [&](std::size_t i) { gains[i] = gain(positions[i], parts); });
+  parallelFor(positions.size(), slots(), [&](std::size_t i) { gains[i] = gain(positions[i], parts); });
   return gains;
 }
 

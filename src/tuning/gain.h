@@ -8,6 +8,7 @@
 #include "evaluation/parallel_for.h"
 #include "tuning/drive_likelihood.h"
 #include "tuning/knob.h"
+#include "tuning/tuning_runs.h"
 
 namespace slipnav {
 
@@ -31,8 +32,8 @@ std::vector<double> gainsOver(const DriveLikelihood& base, const DriveLikelihood
 /// Drives, and the gain on them from moving knobs about their configuration.
 class GainMeter {
  public:
-  /// @param on_run called after each run of a drive, from any thread
-  GainMeter(std::vector<Knob> knobs, std::vector<TuningDrive> drives, std::function<void()> on_run);
+  /// @param runs what runs the drives; @param on_run called after each run of a drive, from any thread
+  GainMeter(std::vector<Knob> knobs, std::vector<TuningDrive> drives, TuningRuns runs, std::function<void()> on_run);
 
   const std::vector<Knob>& knobs() const { return knobs_; }
   const std::vector<TuningDrive>& drives() const { return drives_; }
@@ -48,7 +49,10 @@ class GainMeter {
   /// The sum of gainsOver() of all parts.
   double gain(const Eigen::VectorXd& position, const DriveParts& parts);
 
-  /// The same at several positions, on all cores.
+  /// How many runs there may be at a time.
+  std::size_t slots() const { return runs_.slots; }
+
+  /// The same at several positions, as many at a time as there are slots.
   std::vector<double> gains(const std::vector<Eigen::VectorXd>& positions, const DriveParts& parts);
 
  private:
@@ -56,6 +60,7 @@ class GainMeter {
 
   std::vector<Knob> knobs_;
   std::vector<TuningDrive> drives_;
+  TuningRuns runs_;
   std::function<void()> on_run_;
   Cores cores_;
   std::vector<DriveLikelihood> base_;

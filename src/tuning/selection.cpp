@@ -72,7 +72,7 @@ std::vector<Trial> tryAll(GainMeter& meter, const Eigen::VectorXd& position, con
   const std::size_t count = meter.knobs().size();
   std::vector<Trial> trials(count);
   std::vector<std::vector<DriveLikelihood>> runs(2 * count + 1);
-  parallelFor(runs.size(), coreCount(), [&](std::size_t i) {
+  parallelFor(runs.size(), meter.slots(), [&](std::size_t i) {
     Eigen::VectorXd moved = position;
     if (i < 2 * count) {
       const Knob& knob = meter.knobs()[i / 2];

@@ -151,7 +151,8 @@ std::array<DriveParts, 2> halvesOf(const GainMeter& meter) {
   return halves;
 }
 
-TuningResult tune(std::vector<Knob> knobs, std::vector<TuningDrive> drives, const TuningWatcher& watcher) {
+TuningResult tune(std::vector<Knob> knobs, std::vector<TuningDrive> drives, const TuningWatcher& watcher,
+                  TuningRuns runs) {
   requireNoTruth(drives);
   Counter counter(watcher);
   const std::size_t count = drives.size();
@@ -160,7 +161,7 @@ TuningResult tune(std::vector<Knob> knobs, std::vector<TuningDrive> drives, cons
     return count * ((count > 1 ? 2 : 3) * runsOfFit(free) + runsOfCovariance(free) + 2);
   };
   counter.expect(count * (1 + runsOfSelection(all, kUsualKnobs)) + runs_of_fits(kUsualKnobs));
-  GainMeter meter(std::move(knobs), std::move(drives), [&counter] { counter.count(); });
+  GainMeter meter(std::move(knobs), std::move(drives), std::move(runs), [&counter] { counter.count(); });
   requireStarts(meter);
   const std::array<DriveParts, 2> halves = halvesOf(meter);
   const Selection selection = selectKnobs(meter, halves);

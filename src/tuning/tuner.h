@@ -50,9 +50,10 @@ using TuningWatcher = std::function<void(const TuningProgress&)>;
 std::array<DriveParts, 2> halvesOf(const GainMeter& meter);
 
 /// One set of values for all drives.
-/// @param knobs what to tune, see tuningKnobs()
+/// @param knobs what to tune, see tuningKnobs(); @param runs where the drives are run: here, or elsewhere
 /// Throws std::invalid_argument with a message for users if a drive never starts or is too short, or if its start needs
 /// truth.
-TuningResult tune(std::vector<Knob> knobs, std::vector<TuningDrive> drives, const TuningWatcher& watcher);
+TuningResult tune(std::vector<Knob> knobs, std::vector<TuningDrive> drives, const TuningWatcher& watcher,
+                  TuningRuns runs = {});
 
 }  // namespace slipnav

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <ctime>
 
-#include "core/slip/slip_ratio.h"
-#include "core/slip/vehicle_slip.h"
 #include "evaluation/simulated_drive.h"
 #include "slipnav/core/navigation/pipeline.h"
 #include "support/gp_golden.h"
@@ -32,16 +30,11 @@ std::vector<sim::Measurements> simulateLongDrive() {
   return samples;
 }
 
-SlipSamples findSlip() {
-  SlipSamples slip;
-  const auto collect = [&slip](const Estimate& estimate, const ErrorCovariance&) {
-    const std::optional<double> ratio =
-        estimate.has_wheels && !estimate.stationary
-            ? slipRatio(estimate.motion.v_eb_b.x(), estimate.wheels.motion.forward_mps, kMinSpeedForSlip_mps)
-            : std::nullopt;
-    if (ratio && std::abs(*ratio) < 1.0) {
-      slip.times_s.push_back(kInterval_s * static_cast<double>(slip.times_s.size()));
-      slip.slips.push_back(*ratio);
+std::vector<FilterOutput> filterLongDrive() {
+  std::vector<FilterOutput> outputs;
+  const auto collect = [&outputs](const Estimate& estimate, const ErrorCovariance& P) {
+    if (estimate.has_wheels) {
+      outputs.push_back({estimate, P});
     }
   };
   Pipeline pipeline(Planet::byName(config().planet), config().navigation(), collect);
@@ -49,7 +42,7 @@ SlipSamples findSlip() {
   for (const sim::Measurements& sample : longDrive()) {
     pushMeasurements(sample, geometry, pipeline);
   }
-  return slip;
+  return outputs;
 }
 
 }  // namespace
@@ -64,9 +57,9 @@ const std::vector<sim::Measurements>& longDrive() {
   return samples;
 }
 
-const SlipSamples& simulatedSlip() {
-  static const SlipSamples slip = findSlip();
-  return slip;
+const std::vector<FilterOutput>& filterOutputs() {
+  static const std::vector<FilterOutput> outputs = filterLongDrive();
+  return outputs;
 }
 
 SlipSamples realSlip(std::size_t count) {

@@ -6,6 +6,7 @@
 #include "config/config.h"
 #include "core/forecast/slip_window.h"
 #include "simulation/simulator.h"
+#include "slipnav/core/ekf/engine/filter_data.h"
 
 namespace slipnav::bench {
 
@@ -15,8 +16,14 @@ const Config& config();
 /// All samples of 915 s: rest, straight drive under satellite fixes, and then as far as the time goes without a stop.
 const std::vector<sim::Measurements>& longDrive();
 
-/// The slip ratios that the filter finds on that drive, at 10 Hz without those at standstill.
-const SlipSamples& simulatedSlip();
+/// What a forecaster receives.
+struct FilterOutput {
+  Estimate estimate;
+  ErrorCovariance P;
+};
+
+/// The filter's estimates with wheels on that drive.
+const std::vector<FilterOutput>& filterOutputs();
 
 /// Slip recorded on a real rover, played to and fro for as many samples.
 SlipSamples realSlip(std::size_t count);

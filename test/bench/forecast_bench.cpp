@@ -1,4 +1,4 @@
-/// Cost of forecasts: a window fitted after a warm start, predictions, and the growth of the error over the horizon.
+/// Cost of forecasts, as a whole and of their fits.
 
 #include <benchmark/benchmark.h>
 
@@ -8,24 +8,23 @@
 #include <vector>
 
 #include "bench_drive.h"
+#include "core/forecast/forecaster.h"
 #include "core/forecast/gaussian_process_slip_model.h"
 #include "core/forecast/slip_correlation.h"
-#include "slipnav/core/ekf/error_dynamics.h"
 
 namespace slipnav::bench {
 namespace {
 
-constexpr double kInterval_s = 0.1;
 constexpr double kHorizon_s = 60.0;
-constexpr Eigen::Index kPredictions = 600;
-constexpr int kCovarianceSteps = 3000;  // at 50 Hz over the horizon
-constexpr int kStepsPerWheelSample = 5;
 constexpr std::size_t kWindow = 150;
 constexpr std::size_t kStride = 10;        // windows slide by one second
 constexpr std::size_t kRealWindows = 298;  // all different
-constexpr int kSimulatedWindows = 600;
-constexpr double kDenseLimit_us = 10e3;
-constexpr double kStateSpaceLimit_us = 5e3;
+constexpr int kForecasts = 800;
+constexpr double kStateSpaceMedianLimit_us = 1e3;
+constexpr double kStateSpaceLimit_us = 2e3;
+constexpr double kDenseMedianLimit_us = 2e3;
+constexpr double kDenseLimit_us = 4e3;
+constexpr double kLargestGrowth = 9.0;
 
 SlipModelParameters parametersOf(const std::string& model, const std::string& inference) {
   SlipModelParameters parameters;
@@ -34,81 +33,104 @@ SlipModelParameters parametersOf(const std::string& model, const std::string& in
   return parameters;
 }
 
-/// The paper's propagation (section IV-D): the covariance with the last Φ and Q, every fifth step updated by odometry.
-class CovarianceAhead {
- public:
-  CovarianceAhead() : odometry_(3), P_(ErrorCovariance::Zero()) {
-    const Planet planet = Planet::byName(config().planet);
-    const ErrorDynamics dynamics(planet, config().imu.noise, config().vehicle);
-    NavigationState state;
-    state.position.latitude_rad = degToRad(config().initialization.latitude_deg);
-    state.v_eb_n.x() = 0.8;
-    const Vector3 f_ib_b = -planet.gravity_n(state.position);
-    transition_ = dynamics.transition(state, state, f_ib_b, Vector3::Zero(), kHorizon_s / kCovarianceSteps);
-    P_.diagonal() = dynamics.priorVariance().array() + 1e-6;
-    odometry_.H.block<3, 3>(0, kVelocity).setIdentity();
-    odometry_.H(0, kSlowSlip) = odometry_.H(0, kFastSlip) = 0.8;
-    odometry_.variance << 1e-4, 1e-4, 1e-4;
-  }
+ForecastParams forecastOf(const std::string& inference, double lengthening = 1.0) {
+  ForecastParams params = config().forecast;
+  params.slip.inference = inference;
+  params.window_s *= lengthening;
+  params.window_m *= lengthening;
+  return params;
+}
 
-  /// @param wheel_variance of the odometry's forward speed, from the slip predicted
-  double stdAtHorizon(double wheel_variance) {
-    ErrorCovariance P = P_;
-    odometry_.variance(0) = wheel_variance;
-    for (int step = 1; step <= kCovarianceSteps; ++step) {
-      ErrorDynamics::propagate(transition_, P);
-      if (step % kStepsPerWheelSample == 0) {
-        benchmark::DoNotOptimize(kalmanUpdate(odometry_, P));
+/// The long drive, forecast by forecast.
+class ForecastDrive {
+ public:
+  explicit ForecastDrive(const ForecastParams& params)
+      : forecaster_(Planet::byName(config().planet), config().navigation().filter, params) {}
+
+  /// The newest forecast's time [ms], that of the estimates before it not counted.
+  double next() {
+    for (;;) {
+      const FilterOutput& output = filterOutputs()[next_];
+      next_ = (next_ + 1) % filterOutputs().size();
+      const double begin_ms = threadTime_ms();
+      const bool made = push(output);
+      if (made) {
+        return threadTime_ms() - begin_ms;
       }
     }
-    return P(kPosition, kPosition);
+  }
+
+  /// Forecasts the drive until the window is full.
+  void warmUp(double window_s) {
+    for (double made_s = 0.0; made_s < window_s; made_s += config().forecast.interval_s) {
+      next();
+    }
   }
 
  private:
-  Measurement odometry_;
-  ErrorTransition transition_;
-  ErrorCovariance P_;
+  /// A function of its own for profilers to count.
+  __attribute__((noinline)) bool push(const FilterOutput& output) {
+    const std::optional<Forecast> forecast = forecaster_.push(output.estimate, output.P);
+    return forecast.has_value();
+  }
+
+  Forecaster forecaster_;
+  std::size_t next_ = 0;
 };
 
-SlipPrediction predictHorizon(const GaussianProcessSlipModel& model, double last_s) {
-  return model.predict(Eigen::VectorXd::LinSpaced(kPredictions, last_s + kInterval_s, last_s + kHorizon_s));
+/// What the product runs: one forecast after the other of a drive; p50_us and p99_us of what each of them takes.
+void wholeForecast(benchmark::State& state, const std::string& inference) {
+  ForecastDrive drive(forecastOf(inference));
+  drive.warmUp(config().forecast.window_s);
+  std::vector<double> times_us;
+  for (auto _ : state) {
+    times_us.push_back(1e3 * drive.next());
+  }
+  const bool dense = inference == "dense";
+  state.counters["p50_us"] = percentile(times_us, 0.5);
+  state.counters["p99_us"] = percentile(times_us, 0.99);
+  state.counters["limit_p50_us"] = dense ? kDenseMedianLimit_us : kStateSpaceMedianLimit_us;
+  state.counters["limit_us"] = dense ? kDenseLimit_us : kStateSpaceLimit_us;
 }
 
-/// Fit of a window, 600 predictions, 3000 covariance steps. A function of its own for profilers to count.
-__attribute__((noinline)) void forecastOnce(GaussianProcessSlipModel& model, CovarianceAhead& covariance,
-                                            const SlipSamples& window) {
-  model.fit(window);
-  const SlipPrediction slip = predictHorizon(model, window.times_s.back());
-  benchmark::DoNotOptimize(covariance.stdAtHorizon(1e-4 + slip.stddev.squaredNorm() / kPredictions));
+/// How the cost of a forecast grows from a window of 150 samples to one of 1500.
+void forecastGrowth(benchmark::State& state) {
+  constexpr double kLonger = 10.0;
+  constexpr int kForecasts = 100;
+  double least_ms = std::numeric_limits<double>::infinity();
+  double least_grown_ms = least_ms;
+  const auto timeOf = [](double longer) {
+    ForecastDrive drive(forecastOf("state_space", longer));
+    drive.warmUp(longer * config().forecast.window_s);
+    double sum_ms = 0.0;
+    for (int i = 0; i < kForecasts; ++i) {
+      sum_ms += drive.next();
+    }
+    return sum_ms;
+  };
+  for (auto _ : state) {
+    least_ms = std::min(least_ms, timeOf(1.0));
+    least_grown_ms = std::min(least_grown_ms, timeOf(kLonger));
+  }
+  state.counters["ratio"] = least_grown_ms / least_ms;
+  state.counters["limit_ratio"] = kLargestGrowth;
 }
 
-std::size_t windowsIn(const SlipSamples& recording) { return (recording.times_s.size() - kWindow) / kStride; }
-
-/// All windows of a recording one after another; p50_us and p99_us of what each of them takes.
-void wholeForecast(benchmark::State& state, const SlipSamples& recording, const SlipModelParameters& parameters) {
-  GaussianProcessSlipModel model(parameters);
-  CovarianceAhead covariance;
+/// Warm fits of windows of real slip, all different.
+void warmFit(benchmark::State& state, const std::string& model_name, const std::string& inference) {
+  GaussianProcessSlipModel model(parametersOf(model_name, inference));
+  const SlipSamples recording = realSlip(kWindow + kStride * kRealWindows);
   model.fit(windowOf(recording, 0, kWindow));
   std::vector<double> times_us;
   std::size_t window = 0;
   for (auto _ : state) {
-    const SlipSamples samples = windowOf(recording, kStride * (window++ % windowsIn(recording)), kWindow);
+    const SlipSamples samples = windowOf(recording, kStride * (window++ % kRealWindows), kWindow);
     const double begin_ms = threadTime_ms();
-    forecastOnce(model, covariance, samples);
+    benchmark::DoNotOptimize(model.fit(samples).log_marginal_likelihood);
     times_us.push_back(1e3 * (threadTime_ms() - begin_ms));
   }
   state.counters["p50_us"] = percentile(times_us, 0.5);
   state.counters["p99_us"] = percentile(times_us, 0.99);
-  state.counters["windows"] = static_cast<double>(windowsIn(recording));
-  state.counters["limit_us"] = parameters.inference == "dense" ? kDenseLimit_us : kStateSpaceLimit_us;
-}
-
-void wholeForecastReal(benchmark::State& state, const std::string& model, const std::string& inference) {
-  wholeForecast(state, realSlip(kWindow + kStride * kRealWindows), parametersOf(model, inference));
-}
-
-void wholeForecastSimulated(benchmark::State& state, const std::string& model, const std::string& inference) {
-  wholeForecast(state, simulatedSlip(), parametersOf(model, inference));
 }
 
 /// Warm fits of windows of `count` samples, in all [ms].
@@ -134,7 +156,7 @@ void fitGrowth(benchmark::State& state, const std::string& model) {
     least_grown_ms = std::min(least_grown_ms, fitAll(recording, kGrown, kWindows, model));
   }
   state.counters["ratio"] = least_grown_ms / least_ms;
-  state.counters["limit_ratio"] = 12.0;
+  state.counters["limit_ratio"] = kLargestGrowth;
 }
 
 void coldFit(benchmark::State& state, const std::string& inference) {
@@ -154,19 +176,20 @@ void correlationSummary(benchmark::State& state, const std::string& inference) {
   }
 }
 
-#define SLIPNAV_WHOLE_FORECAST(model, inference)                                     \
-  BENCHMARK_CAPTURE(wholeForecastReal, model##_##inference, #model, #inference)      \
-      ->Unit(benchmark::kMillisecond)                                                \
-      ->Iterations(kRealWindows);                                                    \
-  BENCHMARK_CAPTURE(wholeForecastSimulated, model##_##inference, #model, #inference) \
-      ->Unit(benchmark::kMillisecond)                                                \
-      ->Iterations(kSimulatedWindows)
+BENCHMARK_CAPTURE(wholeForecast, state_space, "state_space")->Unit(benchmark::kMillisecond)->Iterations(kForecasts);
+BENCHMARK_CAPTURE(wholeForecast, dense, "dense")->Unit(benchmark::kMillisecond)->Iterations(kForecasts);
+BENCHMARK(forecastGrowth)->Unit(benchmark::kMillisecond)->Iterations(3);
 
-SLIPNAV_WHOLE_FORECAST(paper, dense);
-SLIPNAV_WHOLE_FORECAST(rbf_slow, dense);
-SLIPNAV_WHOLE_FORECAST(paper, state_space);
-SLIPNAV_WHOLE_FORECAST(brownian_matern, state_space);
-SLIPNAV_WHOLE_FORECAST(rbf_slow, state_space);
+#define SLIPNAV_WARM_FIT(model, inference)                            \
+  BENCHMARK_CAPTURE(warmFit, model##_##inference, #model, #inference) \
+      ->Unit(benchmark::kMillisecond)                                 \
+      ->Iterations(kRealWindows)
+
+SLIPNAV_WARM_FIT(paper, dense);
+SLIPNAV_WARM_FIT(rbf_slow, dense);
+SLIPNAV_WARM_FIT(paper, state_space);
+SLIPNAV_WARM_FIT(brownian_matern, state_space);
+SLIPNAV_WARM_FIT(rbf_slow, state_space);
 BENCHMARK_CAPTURE(fitGrowth, brownian_matern, "brownian_matern")->Unit(benchmark::kMillisecond)->Iterations(3);
 BENCHMARK_CAPTURE(fitGrowth, paper, "paper")->Unit(benchmark::kMillisecond)->Iterations(3);
 BENCHMARK_CAPTURE(fitGrowth, rbf_slow, "rbf_slow")->Unit(benchmark::kMillisecond)->Iterations(3);

@@ -16,6 +16,8 @@ def rows(benchmarks):
             measured = b["p99_us"] if "p99_us" in b else b["cpu_time"] * MICROSECONDS[b["time_unit"]]
             kind = " (p99)" if "p99_us" in b else ""
             yield b["name"], duration(measured) + kind, duration(b["limit_us"]), measured <= b["limit_us"]
+        if "limit_p50_us" in b:
+            yield b["name"], duration(b["p50_us"]) + " (p50)", duration(b["limit_p50_us"]), b["p50_us"] <= b["limit_p50_us"]
 
 
 def duration(us):

@@ -42,7 +42,7 @@ void imuStep(benchmark::State& state) {
   }
   while (state.KeepRunningBatch(static_cast<benchmark::IterationCount>(samples.size()))) {
     Navigator navigator(Planet::byName(config().planet), setup.imu_input, setup.filter);
-    navigator.initialise(start);
+    navigator.initialize(start);
     for (const ImuSample& sample : samples) {
       navigator.push(sample, [](const Estimate&, const ErrorCovariance&) {});
     }

@@ -54,6 +54,29 @@ TEST(CalibrationInputTest, truthOfAnotherDayIsNamed) {
   EXPECT_EQ(complaint(straightConfig(), drive), "truth positions and IMU samples have no time in common");
 }
 
+TEST(CalibrationInputTest, truthOfAnotherClockIsNamed) {
+  const Config config = calibrationConfig(2, 60.0);
+  CalibrationDrive drive = simulateCalibrationDrive(config).drive;
+  for (PositionFix& fix : drive.truth) {
+    fix.stamp += 18 * kSecond;
+  }
+  EXPECT_NE(complaint(config, drive).find("too late relative to the drive (18 s: GPS time instead of UTC?)"),
+            std::string::npos)
+      << complaint(config, drive);
+}
+
+TEST(CalibrationInputTest, wheelsInAnotherUnitAreRefused) {
+  CalibrationDrive drive = straightDrive().drive;
+  for (WheelMotion& wheels : drive.wheels) {  // revolutions per minute
+    wheels.motion.forward_mps *= 30.0 / kPi;
+    for (double& speed : wheels.circumferential_mps) {
+      speed *= 30.0 / kPi;
+    }
+  }
+  EXPECT_NE(complaint(straightConfig(), drive).find("times as far as the wheels say"), std::string::npos)
+      << complaint(straightConfig(), drive);
+}
+
 TEST(CalibrationInputTest, withoutWheelsNothingCanBeSaid) {
   CalibrationDrive drive = straightDrive().drive;
   drive.wheels.clear();

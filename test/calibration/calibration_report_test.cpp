@@ -53,7 +53,11 @@ TEST(CalibrationReportTest, whatIsUnknownStaysAsConfigured) {
 TEST(CalibrationReportTest, aRobotsOwnOdometryHasNoRadiiToChange) {
   CalibrationResult result = fullResult();
   result.has_wheel_rates = false;
+  result.scrub_factor.reset();
   EXPECT_EQ(calibrationYaml(Config{}, result).find("wheels:"), std::string::npos);
+  Config scaled;
+  scaled.wheel.odometry_scale = 1.1;
+  EXPECT_NEAR(configFrom(calibrationYaml(scaled, result)).wheel.odometry_scale, 1.1 * 1.01, 1e-9);
   EXPECT_NE(calibrationTable(Config{}, result).find("ground over odometry speed             -     1.01000"),
             std::string::npos)
       << calibrationTable(Config{}, result);

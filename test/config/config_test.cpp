@@ -6,7 +6,6 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "config/config_options.h"
 #include "config/yaml_document.h"
 #include "config/yaml_reader.h"
 #include "config/yaml_writer.h"

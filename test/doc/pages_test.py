@@ -150,6 +150,16 @@ class CommandsTest(PagesTestCase):
         for name in facts.commands():
             self.assert_in(f"./run {name}", read("README.md"), "README.md lacks")
 
+    def test_rosrun_finds_one_program_of_each_name(self):
+        """It looks for executable files in the whole package, and asks where there are several."""
+        built = {os.path.splitext(os.path.basename(path))[0]
+                 for path in glob.glob(os.path.join(ROOT, "src", "tools", "*.cpp"))}
+        scripts = [path for path in glob.glob(os.path.join(ROOT, "scripts", "*")) if os.path.isfile(path)]
+        self.assertTrue(built and scripts)
+        for path in scripts:
+            if os.path.basename(path) in built or path.endswith(".py"):  # the latter are installed
+                self.assertFalse(os.access(path, os.X_OK), os.path.relpath(path, ROOT))
+
     def test_launch_arguments_are_declared(self):
         for page in PAGES:
             for line in code_lines(read(page)):

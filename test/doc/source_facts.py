@@ -12,7 +12,7 @@ FILES_OF_USERS = {"my_rover.yaml", "sensor.yaml", "RTKLIB.pos", "report.html", "
 
 # Nodelets whose publishers live in a class of their own.
 PUBLISHERS = {"estimate_publisher.cpp": ["Filter"], "sensor_publisher.cpp": ["Simulator", "SimulatedRover"],
-              "stop_outputs.cpp": ["StopSupervisor"], "hand_over.cpp": ["Filter"],
+              "stop_messages.cpp": ["StopSupervisor"],
               "start_reporter.cpp": ["Initializer"]}
 # diagnostic_updater publishes it for every nodelet.
 DIAGNOSTICS = ("diagnostics", "diagnostic_msgs/DiagnosticArray")
@@ -118,9 +118,11 @@ def commands():
 # What a script of this name only starts.
 PYTHON_PROGRAMS = {"tables": "scripts/paper_tables.py", "foreign": "scripts/foreign_drives.py",
                    "import": "scripts/import_recording.py", "zoo": "scripts/zoo_campaign.py",
-                   "evaluate": "scripts/evaluate_drives.py", "forecast": "scripts/plot_forecast.py"}
+                   "evaluate": "scripts/evaluate_drives.py", "forecast": "scripts/plot_forecast.py",
+                   "tune": "scripts/tune_drives.py", "mutate": "scripts/slipnav_mutants/__main__.py"}
 # Programs that hand options on to an executable, and those of every campaign.
-EXECUTABLES = {"evaluate": "src/tools/evaluate.cpp", "forecast": "src/tools/forecast.cpp"}
+EXECUTABLES = {"evaluate": "src/tools/evaluate.cpp", "forecast": "src/tools/forecast.cpp",
+               "tune": "src/tools/tune.cpp"}
 CAMPAIGN = "scripts/slipnav_campaign/engine.py"
 
 
@@ -140,7 +142,7 @@ def options_of(command):
 
 def options_of_executable(text):
     declared = re.compile(r'\.(?:option|flag|choice|repeated)\("([\w-]+)"')
-    shared = read("src/config/config_options.cpp") if "declareConfigOptions" in text else ""
+    shared = read("src/config/config.cpp") if "declareConfigOptions" in text else ""
     return set(declared.findall(text + shared)) | {"help"}
 
 
@@ -180,7 +182,7 @@ def diagnostic_texts():
     health = read("src/core/navigation/health.cpp")
     texts.update(text for statement in re.findall(r"note\((.*?)\);", health) for text in literals(statement))
     texts.update(literals(body_of("complaintOf", read("src/core/sensors/imu_screen.cpp"))))
-    texts.update(literals(body_of("componentName", read("src/core/ekf/engine/filter_data.cpp"))))
+    texts.update(literals(body_of("componentName", read("include/slipnav/core/ekf/engine/filter_data.h"))))
     progress = body_of("Initializer::progress", read("src/core/navigation/initializer.cpp"))
     texts.update(text for statement in re.findall(r"return (.*?);", progress) for text in literals(statement))
     texts.update(text for statement in re.findall(r"refuse\((.*?)\);", read("src/core/navigation/checkpoint.cpp"))

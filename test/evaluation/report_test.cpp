@@ -244,6 +244,8 @@ TEST(MetricsJson, holdsEveryKeyInOrder) {
             "  \"closure_up_m\": null,\n"
             "  \"closure_pct\": null,\n"
             "  \"closure_3sigma_m\": null,\n"
+            "  \"largest_nis\": null,\n"
+            "  \"largest_nis_of\": \"\",\n"
             "  \"verdict\": \"\",\n"
             "  \"problems\": [],\n"
             "  \"alarms\": []\n"
@@ -267,7 +269,7 @@ TEST(MetricsJson, givesEachKeyItsOwnFigure) {
   m.final_pct = 26.5, m.stops_seen = 27, m.stops_used = 28, m.threshold_m = 29.5;
   m.forecasts_judged = 30, m.forecast_horizon_s = 31.5, m.forecast_bound_m = 32.5, m.forecast_growth_rms_m = 33.5;
   m.forecast_below_pct = 34.5, m.closure_m = 35.5, m.closure_up_m = 36.5, m.closure_pct = 37.5;
-  m.closure_3sigma_m = 38.5;
+  m.closure_3sigma_m = 38.5, m.largest_nis = 39.5;
   const std::string json = metricsJson(m);
   const std::vector<std::string> keys = {"distance_m",
                                          "duration_s",
@@ -306,7 +308,8 @@ TEST(MetricsJson, givesEachKeyItsOwnFigure) {
                                          "closure_m",
                                          "closure_up_m",
                                          "closure_pct",
-                                         "closure_3sigma_m"};
+                                         "closure_3sigma_m",
+                                         "largest_nis"};
   for (std::size_t i = 0; i < keys.size(); ++i) {
     EXPECT_EQ(std::floor(valueOf(json, keys[i])), static_cast<double>(i + 1)) << keys[i];
   }

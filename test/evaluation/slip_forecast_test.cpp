@@ -71,7 +71,7 @@ TEST(SlipForecast, JsonHasTheKeysAndAllDigits) {
   forecast.fit.origin_s = 0.1 + 0.2;
   const std::string json = toJson(forecast);
   for (const char* key : {"\"model\": \"paper\"", "\"status\": \"converged\"", "\"origin_s\": 0.30000000000000004",
-                          "\"hyperparameters\": {\"variance\": ", ", \"length_scale_s\": ", ", \"noise_variance\": ",
+                          "\"hyperparameters\": {", "\"variance\": ", "\"length_scale_s\": ", "\"noise_variance\": ",
                           "\"log_marginal_likelihood\": 212.", "\"t\": [", "\"mean\": [", "\"stddev\": ["}) {
     EXPECT_NE(json.find(key), std::string::npos) << key;
   }

@@ -27,6 +27,24 @@ TEST(Verdict, namesConsistency) {
   EXPECT_EQ(verdictOf(Metrics{}, true), "not judged: no truth");
 }
 
+TEST(Verdict, namesTheMeasurementThatContradictsMost) {
+  Metrics metrics = goodRun();
+  metrics.largest_nis = 40.0;
+  metrics.largest_nis_of = "forward_speed";
+  EXPECT_EQ(verdictOf(metrics, true), "consistent");
+  metrics.position_nees_mean = 76.0;
+  metrics.coverage_3sigma_pct = 42.6;
+  EXPECT_EQ(verdictOf(metrics, true),
+            "over-confident: 3 sigma covers 42.6 % of the errors, NEES 76, NIS of forward speed 40");
+  Metrics without_truth;
+  without_truth.largest_nis = 40.0;
+  without_truth.largest_nis_of = "forward_speed";
+  EXPECT_EQ(verdictOf(without_truth, true),
+            "over-confident: NIS of forward speed 40; no truth to judge the position by");
+  without_truth.largest_nis = 1.1;
+  EXPECT_EQ(verdictOf(without_truth, true), "not judged: no truth");
+}
+
 TEST(Verdict, namesWhatIsWorseThanWheelsAndGyro) {
   Metrics metrics = goodRun();
   metrics.final_pct = 1.6;

@@ -12,15 +12,15 @@
 
 #include "config/config.h"
 #include "core/forecast/forecaster.h"
-#include "core/navigation/look_ahead.h"
-#include "core/navigation/patience.h"
+#include "core/navigation/estimator.h"
+#include "core/navigation/mechanizer.h"
 #include "core/stopping/forecast_gate.h"
 #include "fuzz_target.h"
 #include "message_reader.h"
 #include "ros/messages/conversions.h"
+#include "ros/messages/forecast_messages.h"
 #include "ros/messages/internal_messages.h"
 #include "ros/messages/stop_messages.h"
-#include "slipnav/core/ekf/engine/filter_engine.h"
 
 namespace {
 
@@ -54,7 +54,7 @@ Forecaster& forecaster() {
   return forecaster;
 }
 
-/// The engines behind the nodelets Ins, Filter, Forecast and StopSupervisor.
+/// What is behind the nodelets Ins, Filter, Forecast and StopSupervisor.
 class Engines {
  public:
   static constexpr int kTypes = 9;
@@ -86,7 +86,7 @@ class Engines {
   void receive(const Message& message) {
     now_s_ += 0.1;
     take(message);
-    mechanise();
+    estimator_.advance([](const Estimate&, const ErrorCovariance&) {}, now_s_);
     gate_.release(
         now_s_, [this](const RoverObservation& observation) { supervisor_.observe(observation); },
         [this](const StopForecast& forecast) { supervisor_.setForecast(forecast); });
@@ -101,27 +101,21 @@ class Engines {
   }
 
   void take(const StartState& message) {
-    const InitialState initial = fromMessage(message);
-    frame_ = LocalFrame(planet_, initial.origin);
-    gate_steps_.restart();
-    look_ahead_.restart(initial.nav.stamp);
-    filter_.reset();
-    filter_.initialise(initial);
-    ins_.initialise(initial.nav);
-    started_ = true;
+    const Start start = fromMessage(message);
+    mechanizer_.take(start, now_s_);
+    estimator_.take(start);
+    if (start.state) {
+      frame_ = LocalFrame(planet_, start.state->origin);
+    }
   }
 
   void take(const InsSteps& message) {
-    if (!started_) {
-      return;
-    }
     for (const InsInterval& interval : message.steps) {
-      gate_steps_.push(fromMessage(interval, message.epoch), now_s_);
-      look_ahead_.addStep(toNanoseconds(interval.state.stamp));
+      estimator_.push(message.start, fromMessage(interval, message.epoch), now_s_);
     }
   }
 
-  void take(const FilterCorrection& message) { ins_.correct(fromMessage(message)); }
+  void take(const FilterCorrection& message) { mechanizer_.take(fromMessage(message)); }
   void take(const Slip& message) { observer_.add(message); }
   void take(const NavState& message) { gate_.push(observer_.observe(message), now_s_); }
 
@@ -129,16 +123,6 @@ class Engines {
     const Nanoseconds stamp = toNanoseconds(message.header.stamp);
     gate_.push(StopForecast{stamp, message.time_to_stop_s, message.kept_s});
     gate_.dealtWith(stamp);
-  }
-
-  void mechanise() {
-    if (!started_) {
-      return;
-    }
-    gate_steps_.release(filter_.wheelsKnownUntil(), now_s_, [this](const InsStep& step) { filter_.push(step); });
-    filter_.advance(
-        [this](const Estimate& estimate, const ErrorCovariance&) { look_ahead_.processed(estimate.nav.stamp); });
-    static_cast<void>(look_ahead_.runUntil());
   }
 
   void take(const ForecastInput& message) {
@@ -152,11 +136,11 @@ class Engines {
   }
 
   void take(const SetStateRequest& message) {
-    if (!started_) {
+    if (!estimator_.isStarted()) {
       return;
     }
     try {
-      filter_.place(toPlacement(message, frame_, filter_.state(), Vector3::Zero()));
+      estimator_.place(toPoseOverride(message, frame_, estimator_.engine().state(), Vector3::Zero()));
     } catch (const std::invalid_argument&) {
     }
   }
@@ -169,15 +153,12 @@ class Engines {
 
   Planet planet_ = Planet::byName(config().planet);
   LocalFrame frame_{planet_, Geodetic{}};
-  InsEngine ins_{planet_, config().navigation().imu_input};
-  FilterEngine filter_{planet_, config().navigation().filter};
-  StepGate gate_steps_{config().filter.max_wait_s};
-  LookAhead look_ahead_{config().filter.max_wait_s};
+  Mechanizer mechanizer_{planet_, config().navigation().imu_input};
+  Estimator estimator_{planet_, config().navigation().filter, kPatience_s};
   RoverObserver observer_{config().stationary.wheel_speed_mps};
   ForecastGate gate_;
   StopSupervisor supervisor_{config().stop};
   double now_s_ = 0.0;
-  bool started_ = false;
 };
 
 constexpr double kStart_s = 100.0;
@@ -199,7 +180,6 @@ InsSteps drivingSteps(double begin_s, double end_s) {
   message.start = 1;
   for (double time_s = begin_s; time_s < end_s - 0.5 * kStep_s; time_s += kStep_s) {
     InsStep step;
-    step.sequence = static_cast<std::uint64_t>(std::lround((time_s - kStart_s) / kStep_s));
     step.start = fromSeconds(time_s);
     step.state = drivingState(time_s + kStep_s);
     step.f_ib_b = {0.0, 0.0, -9.8};
@@ -229,8 +209,7 @@ Engines makeDrivingEngines() {
   initial.P = 1e-3 * ErrorCovariance::Identity();
   initial.origin = initial.nav.position;
   StartState start;
-  start.start = 1;
-  fill(initial, start);
+  fill(Start{1, 0, initial}, start);
   engines.receive(start);
   engines.receive(drivingSteps(kStart_s, kNow_s));
   return engines;

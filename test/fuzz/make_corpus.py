@@ -93,10 +93,10 @@ def start_state():
     return message
 
 
-def steps(begin_s, first, count):
+def steps(begin_s, count):
     message = slipnav.msg.InsSteps(start=1)
     for i in range(count):
-        interval = slipnav.msg.InsInterval(sequence=first + i, f_ib_b=[0.0, 0.0, -9.8])
+        interval = slipnav.msg.InsInterval(f_ib_b=[0.0, 0.0, -9.8])
         interval.start = rospy.Time.from_sec(begin_s + 0.02 * i)
         interval.state = inertial_state(begin_s + 0.02 * (i + 1))
         message.steps.append(interval)
@@ -166,13 +166,12 @@ def write_sensor_messages():
 def write_internal_messages():
     folder = CORPUS / "internal"
     driving, fresh = b"\0", b"\1"
-    write_messages(folder / "filter", fresh, [(0, start_state()), (1, steps(START_S, 0, 3)), (1, steps(START_S + 0.06, 3, 1))])
-    write_messages(folder / "steps", driving, [(1, steps(ENGINES_S, 25, 4))])
+    write_messages(folder / "filter", fresh, [(0, start_state()), (1, steps(START_S, 3)), (1, steps(START_S + 0.06, 1))])
+    write_messages(folder / "steps", driving, [(1, steps(ENGINES_S, 4))])
     write_messages(folder / "forecast", driving, [(3, forecast_input(ENGINES_S + 0.1, 0.05))])
     place = slipnav.srv.SetStateRequest(position_std_m=0.1, has_heading=True, heading_deg=10.0, heading_std_deg=1.0)
-    correction = slipnav.msg.FilterCorrection(start=1, corrects=True, epoch=1, sequence=2,
-                                              state=inertial_state(ENGINES_S))
-    write_messages(folder / "corrections", driving, [(4, place), (2, correction), (1, steps(ENGINES_S, 25, 2))])
+    correction = slipnav.msg.FilterCorrection(start=1, corrects=True, epoch=1, state=inertial_state(ENGINES_S))
+    write_messages(folder / "corrections", driving, [(4, place), (2, correction), (1, steps(ENGINES_S, 2))])
     stop = stamped(slipnav.msg.ErrorForecast(), START_S)
     stop.time_to_stop_s = 0.1
     write_messages(folder / "supervisor", fresh,

@@ -10,7 +10,7 @@
 #include "fuzz_target.h"
 #include "message_reader.h"
 #include "ros/messages/conversions.h"
-#include "ros/messages/internal_messages.h"
+#include "ros/messages/forecast_messages.h"
 #include "ros/messages/wheel_input.h"
 #include "slipnav/core/navigation/output.h"
 #include "slipnav/core/navigation/pipeline.h"

@@ -110,6 +110,39 @@ TEST(InspectionOfRecording, NamesClocksApartByReceiptAndByMotion) {
                 "is one of them GPS time?", Severity::kUnusable);
 }
 
+TEST(InspectionOfRecording, FindsASmallDelayOfTheWheels) {
+  for (const double delay_s : {-0.06, 0.05}) {
+    const Inspection late = inspectSpoilt([delay_s](Recording& recording) {
+      for (RawJointSample& sample : recording.joints[0].samples) {
+        sample.time.stamp += fromSeconds(delay_s);
+      }
+    });
+    EXPECT_NEAR(late.clock.wheels_ahead_s, delay_s, 0.01);
+    EXPECT_LT(late.clock.std_s, 0.01);
+    expectFinding(late, "those of /imu/data, by the motion", Severity::kRemark);
+    InspectionOptions options;
+    options.wheel_radius_m = 0.1;
+    EXPECT_NE(proposedYaml(late, options, "drive.bag").find("stamp_delay_s: " + std::string(delay_s < 0.0 ? "-" : "")),
+              std::string::npos);
+  }
+}
+
+TEST(InspectionOfRecording, NamesATruthOfAnotherClockByItsTrack) {
+  InspectionOptions options;
+  options.wheel_radius_m = 0.1;
+  const auto lateTruth = [](Recording& recording) {
+    for (RawFixSample& sample : recording.fixes[0].samples) {
+      sample.time.stamp += 18 * kSecond;
+      sample.time.received += 18 * kSecond;
+    }
+  };
+  expectFinding(inspectSpoilt(lateTruth, options), "18 s: GPS time instead of UTC?", Severity::kUnusable);
+  options.config = Config();
+  options.config->wheels = {{"front_left_wheel", 0.1, 0.0, 0.3, 1.0}, {"front_right_wheel", 0.1, 0.0, -0.3, 1.0}};
+  options.config->truth.stamp_offset_s = -18.0;
+  EXPECT_EQ(find(inspectSpoilt(lateTruth, options), "GPS time"), nullptr);
+}
+
 TEST(InspectionOfRecording, NamesStampsThatAreNotSetOrSetBack) {
   expectFinding(inspectSpoilt([](Recording& recording) {
                   for (RawJointSample& sample : recording.joints[0].samples) {

@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "diagnosed_rover.h"
@@ -199,6 +200,21 @@ TEST_F(Diagnostics, WheelsThatTurnBackwards) {
   expectAlarm("filter", "wheels turn against the motion", diagnostic_msgs::DiagnosticStatus::WARN);
   on_joints_ = nullptr;
   expectEnd("filter", "wheels turn against the motion");
+}
+
+/// Nodelets of one thread report at the same time, and not only the last of them must be heard.
+TEST_F(Diagnostics, NoReportIsLost) {
+  constexpr std::size_t kMany = 100;
+  std::set<std::uint32_t> counts;
+  const boost::function<void(const diagnostic_msgs::DiagnosticArray::ConstPtr&)> count =
+      [&counts](const auto& message) { counts.insert(message->header.seq); };
+  const ros::Subscriber subscriber = node_.subscribe<diagnostic_msgs::DiagnosticArray>("diagnostics", 0, count);
+  for (const double begin_s = now(); counts.size() < kMany && now() - begin_s < kPatience_s;) {
+    ros::spinOnce();
+    ros::WallDuration(0.01).sleep();
+  }
+  ASSERT_GE(counts.size(), kMany);
+  EXPECT_EQ(*counts.rbegin() - *counts.begin() + 1, counts.size());
 }
 
 TEST_F(Diagnostics, AStopThatIsIgnored) {

@@ -4,6 +4,8 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/Twist.h>
 #include <gtest/gtest.h>
+#include <nodelet/NodeletLoad.h>
+#include <nodelet/NodeletUnload.h>
 #include <ros/ros.h>
 #include <signal.h>
 #include <std_msgs/Bool.h>
@@ -69,16 +71,27 @@ class EmergencyStop : public ::testing::Test {
     node_.setParam("slipnav/stop/mode", mode_);
     node_.setParam("slipnav/checkpoint/stop_file", file_);
     node_.setParam("slipnav/topics/diagnostics", "health");
-    process_ = std::make_unique<ChildProcess>(std::vector<std::string>{"rosrun", "nodelet", "nodelet", "standalone",
-                                                                       "slipnav/StopSupervisor", "__name:=supervisor",
-                                                                       "__ns:=" + name_});
+    process_ = std::make_unique<ChildProcess>(std::vector<std::string>{
+        packageExecutable("manager"), "supervisor=slipnav/StopSupervisor", "__name:=manager", "__ns:=" + name_});
     ASSERT_TRUE(waitUntil([this] { return ros::service::exists(service("emergency_stop"), false); }));
   }
 
   void end(int signal) {
-    ASSERT_EQ(kill(pidOf(name_ + "/supervisor"), signal), 0);
+    ASSERT_EQ(kill(pidOf(name_ + "/manager"), signal), 0);
     process_->wait();
     ASSERT_TRUE(waitUntil([this] { return commands_.getNumSubscribers() == 0; }));
+  }
+
+  /// Within the running manager.
+  void reload() {
+    nodelet::NodeletUnload unload;
+    unload.request.name = name_ + "/supervisor";
+    ASSERT_TRUE(ros::service::call(name_ + "/manager/unload_nodelet", unload) && unload.response.success);
+    ASSERT_TRUE(waitUntil([this] { return commands_.getNumSubscribers() == 0; }));
+    nodelet::NodeletLoad load;
+    load.request.name = unload.request.name;
+    load.request.type = "slipnav/StopSupervisor";
+    ASSERT_TRUE(ros::service::call(name_ + "/manager/load_nodelet", load) && load.response.success);
   }
 
   std::string service(const std::string& name) const { return name_ + "/supervisor/" + name; }
@@ -139,13 +152,15 @@ class EmergencyStop : public ::testing::Test {
         << "released for good";
   }
 
-  /// Over restarts of both kinds, and whatever mode is chosen.
+  /// Over restarts of both kinds and a reload, and whatever mode is chosen.
   void expectItHolds() {
     for (const int signal : {SIGKILL, SIGINT}) {
       end(signal);
       launch();
       expectOnlyZeros();
     }
+    reload();
+    expectOnlyZeros();
     for (const char* mode : {"off", "active", "advise"}) {
       tune(mode);
       expectOnlyZeros();

@@ -20,6 +20,7 @@ namespace slipnav {
 namespace {
 
 constexpr double kPatience_s = 20.0;
+constexpr double kDisturbance_s = 3.0;  // in which a second manager of the same name would end the first
 
 class ManagerProcess : public ::testing::Test {
  protected:
@@ -42,14 +43,18 @@ class ManagerProcess : public ::testing::Test {
     return list.response.nodelets;
   }
 
+  static bool waitUntil(const std::function<bool()>& condition, double limit_s = kPatience_s) {
+    const ros::SteadyTime begin = ros::SteadyTime::now();
+    while (!condition() && (ros::SteadyTime::now() - begin).toSec() < limit_s) {
+      ros::WallDuration(0.05).sleep();
+    }
+    return condition();
+  }
+
   /// Its exit status; negative if it did not arrive in time.
   static int endWith(int signal, ChildProcess& process) {
-    const ros::SteadyTime begin = ros::SteadyTime::now();
-    while (loaded().size() < 2) {
-      if ((ros::SteadyTime::now() - begin).toSec() > kPatience_s) {
-        return -1;
-      }
-      ros::WallDuration(0.05).sleep();
+    if (!waitUntil([] { return loaded().size() == 2; })) {
+      return -1;
     }
     return kill(pidOf("/rover/manager"), signal) == 0 ? process.wait() : -1;
   }
@@ -63,10 +68,7 @@ class ManagerProcess : public ::testing::Test {
 
 TEST_F(ManagerProcess, LoadsWhatItIsToldInItsNamespace) {
   const std::unique_ptr<ChildProcess> manager = run(nodelets_);
-  const ros::SteadyTime begin = ros::SteadyTime::now();
-  while (loaded().size() < 2 && (ros::SteadyTime::now() - begin).toSec() < kPatience_s) {
-    ros::WallDuration(0.05).sleep();
-  }
+  waitUntil([] { return loaded().size() == 2; });
   EXPECT_EQ(loaded(), (std::vector<std::string>{"/rover/deep/forecast", "/rover/supervisor"}));
 }
 
@@ -80,6 +82,21 @@ TEST_F(ManagerProcess, TheStateOfALaunchOutlastsItsManager) {
     EXPECT_EQ(endWith(signal, *run(nodelets_)), 128 + signal);
     EXPECT_TRUE(stateIsThere());
   }
+}
+
+/// Two launches by mistake: ROS would end the first one, which its roslaunch restarts, and so on.
+TEST_F(ManagerProcess, ASecondOneWaitsForTheEndOfTheFirst) {
+  const std::unique_ptr<ChildProcess> first = run(nodelets_);
+  ASSERT_TRUE(waitUntil([] { return loaded().size() == 2; }));
+  const pid_t running = pidOf("/rover/manager");
+  const std::unique_ptr<ChildProcess> second = run(nodelets_);
+  EXPECT_FALSE(waitUntil([&first] { return first->poll().has_value(); }, kDisturbance_s));
+  run(nodelets_).reset();  // ended while it waits
+  EXPECT_TRUE(stateIsThere());
+  EXPECT_EQ(pidOf("/rover/manager"), running);
+  ASSERT_EQ(kill(running, SIGKILL), 0);
+  first->wait();
+  EXPECT_TRUE(waitUntil([] { return loaded().size() == 2; })) << "the second takes over";
 }
 
 TEST_F(ManagerProcess, SaysWhatItCannotLoad) {

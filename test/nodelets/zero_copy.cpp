@@ -12,9 +12,7 @@
 #include <nav_msgs/Path.h>
 #include <nodelet/loader.h>
 #include <ros/callback_queue.h>
-#include <ros/network.h>
 #include <ros/ros.h>
-#include <ros/xmlrpc_manager.h>
 #include <slipnav/ErrorForecast.h>
 #include <slipnav/FilterCorrection.h>
 #include <slipnav/ForecastInput.h>
@@ -41,13 +39,14 @@
 #include <vector>
 
 #include "evaluation/simulated_drive.h"
+#include "nodelets/own_links.h"
 #include "ros/messages/conversions.h"
 #include "ros/messages/simulated_sensors.h"
 #include "ros/runtime/internal_topics.h"
 #include "ros/runtime/parameters.h"
 #include "ros/runtime/shared_publisher.h"
 
-namespace slipnav {
+namespace slipnav::test {
 namespace {
 
 using Object = boost::shared_ptr<const void>;
@@ -139,51 +138,6 @@ std::vector<Probe> probes(const TopicNames& topics) {
   return all;
 }
 
-/// roscpp's own answer to an XML-RPC call, asked at this node.
-XmlRpc::XmlRpcValue askThisNode(const std::string& method) {
-  std::string host;
-  std::uint32_t port = 0;
-  ros::network::splitURI(ros::XMLRPCManager::instance()->getServerURI(), host, port);
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpc::XmlRpcValue caller;
-  XmlRpc::XmlRpcValue answer;
-  caller[0] = ros::this_node::getName();
-  EXPECT_TRUE(client.execute(method.c_str(), caller, answer));
-  return answer;
-}
-
-struct Traffic {
-  int messages = 0;
-  int bytes = 0;
-};
-
-/// What came in on each topic.
-std::map<std::string, Traffic> traffic() {
-  std::map<std::string, Traffic> result;
-  XmlRpc::XmlRpcValue subscriptions = askThisNode("getBusStats")[1];  // of this call roscpp gives no status
-  for (int i = 0; i < subscriptions.size(); ++i) {
-    XmlRpc::XmlRpcValue& links = subscriptions[i][1];
-    for (int k = 0; k < links.size(); ++k) {
-      Traffic& topic = result[subscriptions[i][0]];
-      topic.bytes += static_cast<int>(links[k][1]);
-      topic.messages += static_cast<int>(links[k][2]);
-    }
-  }
-  return result;
-}
-
-/// Topics with a link that is not within this process.
-std::set<std::string> topicsToOutside() {
-  std::set<std::string> topics;
-  XmlRpc::XmlRpcValue links = askThisNode("getBusInfo")[2];
-  for (int i = 0; i < links.size(); ++i) {
-    if (static_cast<std::string>(links[i][3]) != "INTRAPROCESS") {
-      topics.insert(links[i][4]);
-    }
-  }
-  return topics;
-}
-
 /// Publishes and remembers what.
 template <class Message>
 class Source {
@@ -222,15 +176,6 @@ class ZeroCopy : public ::testing::Test {
   ros::NodeHandle node_;
   nodelet::Loader loader_{false};
 };
-
-TEST_F(ZeroCopy, InsKeepsTheInitialStateThatItWaitsWith) {
-  load("/ins", "slipnav/Ins");
-  const auto state = boost::make_shared<StartState>();
-  state->start = 1;
-  state->known = true;
-  state->state.stamp = ros::Time(100.0);  // no sample has come so far
-  expectHeld(kInitialStateTopic, state);
-}
 
 TEST_F(ZeroCopy, FilterKeepsTheStepsThatOvertookTheirInitialState) {
   load("/filter", "slipnav/Filter");
@@ -392,7 +337,7 @@ TEST_F(ZeroCopyDrive, NoTopicIsWithoutAProbe) {
 }
 
 }  // namespace
-}  // namespace slipnav
+}  // namespace slipnav::test
 
 int main(int argc, char** argv) {
   ::testing::InitGoogleTest(&argc, argv);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "overlay/drive_picture.h"
+#include "overlay/drive_view.h"
 
 namespace slipnav {
 namespace {
@@ -124,7 +124,7 @@ class Drive : public ::testing::Test {
   }
 
   OverlayParams params_;
-  DrivePicture picture_{params_, align("auto"), Vector3::Zero()};
+  DriveView picture_{params_, align("auto"), Vector3::Zero()};
 };
 
 TEST_F(Drive, NothingIsShownBeforeItBegins) {
@@ -152,7 +152,7 @@ TEST_F(Drive, IsGatheredFromAllThatIsSaid) {
 TEST_F(Drive, TruthIsDrawnAtTheHeightOfTheEstimateUnlessAskedOtherwise) {
   for (const bool flat : {true, false}) {
     params_.flat = flat;
-    DrivePicture picture(params_, align("auto"), Vector3::Zero());
+    DriveView picture(params_, align("auto"), Vector3::Zero());
     picture.start(frame(), 0);
     picture.truthInput().add(fixAt(1.5, {1.5, 0.0, 7.0}));
     picture.add(estimateAt(1.0));
@@ -201,7 +201,7 @@ TEST_F(Drive, AClockThatGoesBackClearsIt) {
 TEST_F(Drive, WhatIsShownStaysSmallHoweverLongItIs) {
   params_.max_points = 100;
   params_.max_stops = 5;
-  DrivePicture picture(params_, align("auto"), Vector3::Zero());
+  DriveView picture(params_, align("auto"), Vector3::Zero());
   picture.start(frame(), 0);
   for (int i = 0; i < 50000; ++i) {
     picture.add(estimateAt(i));

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "overlay/drive_picture.h"
+#include "overlay/drive_view.h"
 #include "overlay/stop_log.h"
 #include "overlay/thinned_track.h"
 #include "overlay/wheel_path.h"

@@ -33,7 +33,7 @@ namespace {
 
 constexpr double kPatience_s = 10.0;
 
-/// The services that the nodelets have, and what they were asked.
+/// The services that the nodelets have, and what they were asked. They answer side by side, like nodelets.
 class FakeNodelets {
  public:
   FakeNodelets() {
@@ -58,6 +58,9 @@ class FakeNodelets {
     spinner_.start();
   }
 
+  /// Until then the checkpoint is not answered for.
+  std::unique_lock<std::mutex> holdUpCheckpoints() { return std::unique_lock<std::mutex>(checkpoint_); }
+
   std::vector<std::string> calls() {
     const std::lock_guard<std::mutex> lock(mutex_);
     return calls_;
@@ -69,6 +72,9 @@ class FakeNodelets {
     const boost::function<bool(typename Service::Request&, typename Service::Response&)> callback =
         [this, name, say](auto& request, auto& response) {
           note(name + " " + say(request));
+          if (name == "filter/save_checkpoint") {
+            const std::lock_guard<std::mutex> until_it_may(checkpoint_);
+          }
           response.success = 1;
           return true;
         };
@@ -84,8 +90,9 @@ class FakeNodelets {
   ros::CallbackQueue queue_;
   std::vector<ros::ServiceServer> servers_;
   std::mutex mutex_;
+  std::mutex checkpoint_;
   std::vector<std::string> calls_;
-  ros::AsyncSpinner spinner_{1, &queue_};
+  ros::AsyncSpinner spinner_{2, &queue_};
 };
 
 class RvizPanel : public ::testing::Test {
@@ -276,6 +283,15 @@ TEST_F(RvizPanel, AnEmergencyStopIsOneClickAndItsEndTwo) {
   EXPECT_EQ(nodelets_.calls().size(), before) << "one click releases nothing";
   click(button("emergency_stop"));
   expectCall("stop_supervisor/emergency_stop false");
+}
+
+TEST_F(RvizPanel, AnEmergencyStopWaitsForNoOtherService) {
+  ASSERT_TRUE(waitUntil([this] { return button("checkpoint")->isEnabled() && button("emergency_stop")->isEnabled(); }));
+  const std::unique_lock<std::mutex> hang = nodelets_.holdUpCheckpoints();
+  click(button("checkpoint"));
+  expectCall("filter/save_checkpoint called");
+  click(button("emergency_stop"));
+  expectCall("stop_supervisor/emergency_stop true");
 }
 
 /// Of 800 rows, this many remain after the window frame and rviz's status bar.

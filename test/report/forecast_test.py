@@ -29,7 +29,8 @@ MOST_LINES = 15
 
 
 def forecast(*words):
-    command = [os.path.join(ROOT, "scripts", "plot_forecast.py"), "--forecast", os.environ["SLIPNAV_FORECAST"], *words]
+    program = os.path.join(ROOT, "scripts", "plot_forecast.py")
+    command = [sys.executable, program, "--forecast", os.environ["SLIPNAV_FORECAST"], *words]
     return subprocess.run(command, check=False, capture_output=True, text=True)
 
 

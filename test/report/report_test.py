@@ -37,7 +37,7 @@ from slipnav_report.run_data import MOST_POINTS, RunData, read_tum, single_forec
 
 MOST_BYTES = 6_000_000
 MOST_BYTES_OF_PICTURES = 1_500_000
-MOST_SECONDS = 60.0  # for a drive of a minute on a machine that is busy; see doc/visualisation.md for what it takes
+MOST_SECONDS = 60.0  # for a drive of a minute on a machine that is busy; see doc/visualization.md for what it takes
 THRESHOLD_M = 0.8
 LEAST_PIXELS = 30  # of pure color; the edges of lines are blended
 
@@ -76,7 +76,7 @@ class ReportTest(unittest.TestCase):
         )
         write_forecasts(cls.directory, RunData(cls.directory).start)
         begin = time.monotonic()
-        subprocess.run([os.path.join(ROOT, "scripts", "plot_report.py"), cls.directory], check=True,
+        subprocess.run([sys.executable, os.path.join(ROOT, "scripts", "plot_report.py"), cls.directory], check=True,
                        stderr=subprocess.DEVNULL)
         cls.seconds = time.monotonic() - begin
         cls.run_data = RunData(cls.directory)
@@ -337,11 +337,11 @@ class ReportTest(unittest.TestCase):
         program = os.path.join(ROOT, "scripts", "plot_report.py")
         count = len(self.run_data.stops())
         for number in (0, count + 1):
-            result = subprocess.run([program, self.directory, "--figure", str(number)], capture_output=True, text=True,
-                                    check=False)
+            result = subprocess.run([sys.executable, program, self.directory, "--figure", str(number)],
+                                    capture_output=True, text=True, check=False)
             self.assertEqual((result.returncode, result.stderr),
                              (1, f"plot_report: there is no stop {number}: the drive has {count}\n"))
-        subprocess.run([program, self.directory, "--figure", "1"], check=True)
+        subprocess.run([sys.executable, program, self.directory, "--figure", "1"], check=True)
         self.assertEqual(matplotlib.image.imread(os.path.join(self.directory, "stop_1.png")).shape[2], 4)
 
     def test_velocity(self):

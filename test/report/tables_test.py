@@ -22,7 +22,7 @@ import scipy.stats
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 
-from slipnav_tables import accuracy, clock, curve, drive, intervals, paper, statistics  # noqa: E402
+from slipnav_tables import accuracy, clock, curve, drive, intervals, paper, skill, statistics  # noqa: E402
 from slipnav_tables.section import Options  # noqa: E402
 
 PROGRAM = os.path.join(ROOT, "scripts", "paper_tables.py")
@@ -206,6 +206,50 @@ class ClockTest(unittest.TestCase):
         self.assertAlmostEqual(found["enu_error_pct"], 0.3)
 
 
+class SkillTest(unittest.TestCase):
+    def test_promises_that_a_stop_cuts_short_do_not_count(self):
+        line = timeline([1, 0, 0, 0, 1, 1, 0, 0], [1, 1, 2, 4, 4, 4, 6, 9])
+        made = {"t": np.array([10.0, 11.0, 11.0, 13.0, 16.0, 16.0]), "horizon_s": np.array([4.0, 2.0, 3.0, 1.0, 1.0, 2.0]),
+                "horizontal_bound_m": np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])}
+        kept = drive.kept_promises(line, made)
+        self.assertEqual(kept.bound_m.tolist(), [2.0, 5.0])
+        self.assertEqual(kept.since_s.tolist(), [3.0, 2.0])
+        self.assertEqual(kept.growth_m.tolist(), [3.0, 5.0])
+        self.assertEqual(kept.at(1.0).bound_m.tolist(), [5.0])
+
+    @staticmethod
+    def promises(random, bound_of):
+        """Drives whose error grows with a slip of their own: half of them ten times as fast as the others."""
+        drives = []
+        for number in range(40):
+            since_s = random.uniform(20.0, 100.0, 200)
+            std_m = (0.1 if number % 2 else 0.01) * since_s
+            growth_m = np.hypot(*(std_m / np.sqrt(2.0) * random.normal(size=(2, 200))))
+            drives.append(drive.Promises(np.full(200, 10.0), since_s, bound_of(std_m, since_s), growth_m))
+        return drives
+
+    def gains(self, bound_of):
+        return [skill.mean_and_error(values) for values in skill.skills(self.promises(np.random.RandomState(3), bound_of))]
+
+    def test_bound_that_knows_the_slip_has_skill(self):
+        for mean, error in self.gains(lambda std_m, since_s: 3.0 * std_m):
+            self.assertGreater(mean, 0.5)
+            self.assertLess(error, 0.3)
+
+    def test_bound_that_knows_the_time_alone_has_none(self):
+        as_is, scaled = self.gains(lambda std_m, since_s: 3.0 * since_s)
+        self.assertLess(as_is[0], -1.0)  # far too large
+        self.assertAlmostEqual(scaled[0], 0.0, delta=0.1)
+
+    def test_score_is_best_at_the_true_variance(self):
+        growth_m = 2.0 * np.hypot(*(np.random.RandomState(5).normal(size=(2, 10000)) / np.sqrt(2.0)))
+        scores = [skill.log_score(variance_m2, growth_m).mean() for variance_m2 in (3.0, 4.0, 5.0)]
+        self.assertEqual(max(scores), scores[1])
+
+    def test_nothing_is_said_of_too_few_drives(self):
+        self.assertEqual(skill.cell(skill.mean_and_error([1.0])), "-")
+
+
 def heed_interrupts():
     """Processes that a shell runs in the background are told to ignore them, and hand that on."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
@@ -227,7 +271,7 @@ class ProgramTest(unittest.TestCase):
         return path
 
     def command(self, simulate, *arguments):
-        return [PROGRAM, "--simulate", simulate, "--out", os.path.join(self.directory, "out"), *arguments]
+        return [sys.executable, PROGRAM, "--simulate", simulate, "--out", os.path.join(self.directory, "out"), *arguments]
 
     def run_program(self, simulate, *arguments):
         return subprocess.run(self.command(simulate, *arguments), capture_output=True, text=True, check=False)

@@ -137,7 +137,7 @@ ImuInterval AnalyticMotion::imu(double from_s, double to_s) const {
   return mean;
 }
 
-NavigationState mechanise(const AnalyticMotion& motion, const std::vector<double>& ends_s, double start_s) {
+NavigationState mechanize(const AnalyticMotion& motion, const std::vector<double>& ends_s, double start_s) {
   const Strapdown strapdown(motion.planet());
   NavigationState state = motion.state(0.0);
   ImuInterval previous = motion.imu(start_s, 0.0);
@@ -151,14 +151,14 @@ NavigationState mechanise(const AnalyticMotion& motion, const std::vector<double
   return state;
 }
 
-NavigationState mechanise(const AnalyticMotion& motion, double duration_s, double rate_hz) {
+NavigationState mechanize(const AnalyticMotion& motion, double duration_s, double rate_hz) {
   std::vector<double> ends_s;
   const auto count = static_cast<int>(std::lround(duration_s * rate_hz));
   ends_s.reserve(static_cast<std::size_t>(count));
   for (int i = 1; i <= count; ++i) {
     ends_s.push_back(static_cast<double>(i) / rate_hz);
   }
-  return mechanise(motion, ends_s, -1.0 / rate_hz);
+  return mechanize(motion, ends_s, -1.0 / rate_hz);
 }
 
 }  // namespace slipnav::test

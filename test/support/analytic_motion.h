@@ -68,9 +68,9 @@ class AnalyticMotion {
 
 /// Mechanizes the motion's own IMU over intervals that end at `ends_s`, from the true state at time zero.
 /// @param start_s where the interval before the first begins; the mechanization knows it as previous interval
-NavigationState mechanise(const AnalyticMotion& motion, const std::vector<double>& ends_s, double start_s);
+NavigationState mechanize(const AnalyticMotion& motion, const std::vector<double>& ends_s, double start_s);
 
 /// The same over regular intervals.
-NavigationState mechanise(const AnalyticMotion& motion, double duration_s, double rate_hz);
+NavigationState mechanize(const AnalyticMotion& motion, double duration_s, double rate_hz);
 
 }  // namespace slipnav::test

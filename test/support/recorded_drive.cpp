@@ -44,8 +44,9 @@ RecordedDrive recordDrive(const Config& config) {
       drive.samples.push_back({false, {}, toWheelMotion(geometry, *m.wheel)});
     }
     drive.samples.push_back({true, m.imu, {}});
+    drive.end = toNavState(truth, planet, config.imu.mount.position_b());
     if (!started) {
-      drive.initial = initialFromTruth(config, planet, toNavState(truth, planet, config.imu.mount.position_b()));
+      drive.initial = initialFromTruth(config, planet, drive.end);
       started = true;
     }
   });
@@ -59,7 +60,7 @@ EstimateLog runNavigator(const Config& config, const InitialState& initial, cons
   Navigator navigator(Planet::byName(config.planet), setup.imu_input, setup.filter);
   EstimateLog log;
   const auto sink = [&log](const Estimate& estimate, const ErrorCovariance& P) { log.push_back({estimate, P}); };
-  navigator.initialise(initial);
+  navigator.initialize(initial);
   Nanoseconds newest = 0;
   for (const DriveSample& sample : samples) {
     newest = std::max(newest, sample.stamp());
@@ -75,7 +76,7 @@ EstimateLog runNavigator(const Config& config, const InitialState& initial, cons
 
 bool sameEstimates(const EstimateLog& a, const EstimateLog& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const LoggedEstimate& x, const LoggedEstimate& y) {
-    return x.estimate.sequence == y.estimate.sequence && sameState(x.estimate.nav, y.estimate.nav) &&
+    return x.estimate.first == y.estimate.first && sameState(x.estimate.nav, y.estimate.nav) &&
            x.estimate.vehicle.slow_slip == y.estimate.vehicle.slow_slip &&
            x.estimate.vehicle.mount_yaw_rad == y.estimate.vehicle.mount_yaw_rad &&
            x.estimate.stationary == y.estimate.stationary && x.P == y.P;

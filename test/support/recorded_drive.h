@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "config/config.h"
+#include "core/navigation/navigator.h"
 #include "simulation/truth_state.h"
 #include "slipnav/core/ekf/engine/filter_data.h"
-#include "slipnav/core/navigation/navigator.h"
 
 namespace slipnav::test {
 
@@ -21,6 +21,7 @@ struct DriveSample {
 struct RecordedDrive {
   InitialState initial;              ///< the truth at the start, with small uncertainties
   std::vector<DriveSample> samples;  ///< in order of their stamps
+  NavigationState end;               ///< the truth at the last IMU sample
 };
 
 /// Configuration of a drive: rest, straight, about `distance_m` of route on rough ground, rest.

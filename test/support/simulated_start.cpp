@@ -28,7 +28,7 @@ Config startConfig(int seed) {
   return config;
 }
 
-Start initialise(const Config& config, const Interference& interference) {
+Start initialize(const Config& config, const Interference& interference) {
   const Planet planet = Planet::byName(config.planet);
   const NavigationSetup setup = config.navigation();
   const WheelGeometry geometry = config.wheelGeometry();

@@ -28,7 +28,7 @@ struct Interference {
   double velocity_std_mps = 0.0;  ///< of satellite velocities at the rate of the fixes; 0: none
 };
 
-Start initialise(const Config& config, const Interference& interference = {});
+Start initialize(const Config& config, const Interference& interference = {});
 
 /// Error of the initial state, and of one of its errors the ratio to its standard deviation.
 ErrorVector errorOf(const Start& start);

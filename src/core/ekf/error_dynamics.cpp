@@ -75,16 +75,12 @@ void VehicleModelParams::visit(ParameterVisitor& v) {
   v.number("side_slip_length_m", side_slip_length_m, {1e-2, 1e5}, "correlation length of the side slip [m]");
   v.number("mount_pitch_std_deg", mount_pitch_std_deg, {0.0, 10.0}, "1σ of the IMU's mounting error in pitch [°]");
   v.number("mount_yaw_std_deg", mount_yaw_std_deg, {0.0, 10.0}, "1σ of the IMU's mounting error in yaw [°]");
+  v.number(
+      "mount_position_std_m", mount_position_std_m, {0.0, 10.0},
+      "1σ of where the IMU is, forward and across, relative to the point that does not slide sideways in a turn [m]");
 }
 
-ErrorCovariance ErrorTransition::matrix() const {
-  ErrorCovariance phi = ErrorCovariance::Zero();
-  phi.topLeftCorner<9, kNavStates>() = nav;
-  phi.block<3, 1>(kAttitude, kYawScale) = attitude_from_yaw_scale;
-  phi.block<3, 1>(kVelocity, kYawScale) = velocity_from_yaw_scale;
-  phi.diagonal().tail<kErrorStates - 9>() = decay;
-  return phi;
-}
+ErrorCovariance ErrorTransition::matrix() const { return times(ErrorCovariance(ErrorCovariance::Identity())); }
 
 ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, const VehicleModelParams& vehicle)
     : planet_(planet), prior_variance_(ErrorVector::Zero()), spectral_density_(ErrorVector::Zero()), vehicle_(vehicle) {
@@ -94,6 +90,7 @@ ErrorDynamics::ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, co
   prior_variance_(kMountPitch) = square(degToRad(vehicle.mount_pitch_std_deg));
   prior_variance_(kMountYaw) = square(degToRad(vehicle.mount_yaw_std_deg));
   prior_variance_(kYawScale) = square(imu.gyro_scale_std_ppm * 1e-6);
+  prior_variance_.segment<2>(kImuOffset).setConstant(square(vehicle.mount_position_std_m));
 
   spectral_density_.segment<3>(kAttitude).setConstant(square(degToRad(imu.gyro_noise_deg_per_sqrt_h)) /
                                                       kSecondsPerHour);
@@ -164,15 +161,24 @@ Eigen::Matrix<double, 9, kNavStates> ErrorDynamics::systemMatrix(const Navigatio
 }
 
 ErrorTransition ErrorDynamics::transition(const NavigationState& start, const NavigationState& end,
-                                          const Vector3& f_ib_b, const Vector3& omega_ib_b, double duration_s) const {
+                                          const Vector3& f_ib_b, const Vector3& omega_ib_b,
+                                          const Vector3& rate_change_b, double duration_s) const {
   const NavigationState middle = midpoint(start, end);
-  const Eigen::Matrix<double, 9, kNavStates> F_dt = systemMatrix(middle, f_ib_b) * duration_s;
+  // with the specific force at the IMU itself, the heading would count as observed
+  const Vector3& offset_b = start.imu_offset_b;
+  const Vector3 f_b =
+      f_ib_b - rate_change_b.cross(offset_b) / duration_s - omega_ib_b.cross(omega_ib_b.cross(offset_b));
+  const Eigen::Matrix<double, 9, kNavStates> F_dt = systemMatrix(middle, f_b) * duration_s;
   ErrorTransition t;
   t.nav = F_dt;
   t.nav.noalias() += 0.5 * F_dt.leftCols<9>() * F_dt;
   t.nav.leftCols<9>().diagonal().array() += 1.0;
   t.attitude_from_yaw_scale = -omega_ib_b.z() * duration_s * (middle.q_b_to_n * Vector3::UnitZ());
   t.velocity_from_yaw_scale = 0.5 * F_dt.block<3, 3>(kVelocity, kAttitude) * t.attitude_from_yaw_scale;
+  const Matrix3 turn_b = skew(omega_ib_b);
+  const Matrix3 by_offset = -middle.q_b_to_n.toRotationMatrix() * (skew(rate_change_b) + turn_b * turn_b * duration_s);
+  t.motion_from_offset.topRows<3>() = by_offset.leftCols<2>();
+  t.motion_from_offset.bottomRows<3>() = 0.5 * duration_s * by_offset.leftCols<2>();
   t.decay.setOnes();
   t.noise = spectral_density_ * duration_s;
   return t;
@@ -193,6 +199,7 @@ void ErrorDynamics::propagate(const ErrorTransition& t, ErrorCovariance& P) {
   const ErrorVector yaw_scale = P.col(kYawScale);
   top.middleCols<3>(kAttitude) += yaw_scale.lazyProduct(t.attitude_from_yaw_scale.transpose());
   top.middleCols<3>(kVelocity) += yaw_scale.lazyProduct(t.velocity_from_yaw_scale.transpose());
+  top.middleCols<6>(kVelocity) += P.middleCols<2>(kImuOffset).lazyProduct(t.motion_from_offset.transpose());
 
   Eigen::Matrix<double, 9, 9> nav;
   for (int column = 0; column < 9; ++column) {
@@ -204,6 +211,7 @@ void ErrorDynamics::propagate(const ErrorTransition& t, ErrorCovariance& P) {
   }
   nav.middleRows<3>(kAttitude) += t.attitude_from_yaw_scale.lazyProduct(top.row(kYawScale));
   nav.middleRows<3>(kVelocity) += t.velocity_from_yaw_scale.lazyProduct(top.row(kYawScale));
+  nav.middleRows<6>(kVelocity) += t.motion_from_offset.lazyProduct(top.middleRows<2>(kImuOffset));
 
   P.topLeftCorner<9, 9>() = 0.5 * (nav + nav.transpose());
   P.bottomLeftCorner<kErrorStates - 9, 9>() = t.decay.asDiagonal() * top.bottomRows<kErrorStates - 9>();

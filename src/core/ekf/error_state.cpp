@@ -18,6 +18,7 @@ void subtractError(const Planet& planet, const ErrorVector& error, NavigationSta
   state.position.height_m += error(kPosition + 2);
   state.accel_bias_b -= error.segment<3>(kAccelBias);
   state.gyro_bias_b -= error.segment<3>(kGyroBias);
+  state.imu_offset_b.head<2>() -= error.segment<2>(kImuOffset);
 }
 
 void subtractError(const ErrorVector& error, VehicleState& state) {
@@ -81,6 +82,7 @@ ErrorVector errorBetween(const Planet& planet, const NavigationState& estimate, 
   error.segment<3>(kPosition) = positionDifference(planet, estimate.position, truth.position);
   error.segment<3>(kAccelBias) = estimate.accel_bias_b - truth.accel_bias_b;
   error.segment<3>(kGyroBias) = estimate.gyro_bias_b - truth.gyro_bias_b;
+  error.segment<2>(kImuOffset) = (estimate.imu_offset_b - truth.imu_offset_b).head<2>();
   return error;
 }
 

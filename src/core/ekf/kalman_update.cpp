@@ -1,6 +1,5 @@
 #include "slipnav/core/ekf/kalman_update.h"
 
-#include <Eigen/Cholesky>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <stdexcept>
 
@@ -94,19 +93,19 @@ void addJosephTerms(const KalmanGain& K, const KalmanGain& PHt, const Innovation
   }
 }
 
-std::optional<KalmanGain> updateCovariance(const Measurement& measurement, ErrorCovariance& P) {
+std::optional<UpdateGain> updateCovariance(const Measurement& measurement, ErrorCovariance& P) {
   const PredictedRows innovation(measurement, P);
   if (!innovation.usable) {
     return std::nullopt;
   }
   const KalmanGain K = innovation.gain();
   addJosephTerms(K, innovation.PHt, innovation.S, P);
-  return K;
+  return UpdateGain{K, innovation.cholesky};
 }
 
 std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P) {
-  const std::optional<KalmanGain> K = updateCovariance(measurement, P);
-  return K ? std::optional<ErrorVector>(-*K * measurement.residual) : std::nullopt;
+  const std::optional<UpdateGain> used = updateCovariance(measurement, P);
+  return used ? std::optional<ErrorVector>(-used->K * measurement.residual) : std::nullopt;
 }
 
 void openCovariance(const Measurement& measurement, ErrorCovariance& P) {

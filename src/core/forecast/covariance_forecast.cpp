@@ -67,8 +67,8 @@ void CovarianceForecast::restart(const ErrorCovariance& P, bool growth) {
 
 ErrorTransition CovarianceForecast::transition(const DriveStep& step) const {
   const Vector3 f_ib_n = step.acceleration_n - planet_.gravity_n(step.state.position);
-  ErrorTransition t =
-      dynamics_.transition(step.state, step.state, step.state.q_b_to_n.conjugate() * f_ib_n, Vector3::Zero(), step_s_);
+  ErrorTransition t = dynamics_.transition(step.state, step.state, step.state.q_b_to_n.conjugate() * f_ib_n,
+                                           Vector3::Zero(), Vector3::Zero(), step_s_);
   GroundStep ground = dynamics_.ground();
   ground.way_m = std::abs(step.wheel_speed_mps) * step_s_;
   ground.slow_slip_variance *= step.noise_factors.slow_slip;
@@ -125,8 +125,8 @@ void CovarianceForecast::advance(const DriveStep& step, const GroundOutlook& out
   Measurement measurement(3);
   measurement.H = wheels.H;
   measurement.variance = wheels.claimed;
-  if (const std::optional<KalmanGain> K = updateCovariance(measurement, claim)) {
-    updateWith(*K, wheels.H, wheels.real, reality);
+  if (const std::optional<UpdateGain> used = updateCovariance(measurement, claim)) {
+    updateWith(used->K, wheels.H, wheels.real, reality);
   }
 }
 

@@ -12,9 +12,9 @@
 /// are played back.
 
 #include <Eigen/Core>
-#include <vector>
-
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "slipnav/core/ekf/engine/filter_data.h"
 #include "slipnav/core/ekf/engine/filter_params.h"
@@ -64,6 +64,11 @@ class CovarianceForecast {
   /// The rover has driven a step.
   /// @param P the filter's covariance after it, from which the gains of the next step follow
   void follow(const DriveStep& step, const ErrorCovariance& P, const GroundOutlook& outlook);
+
+  /// The persistent slip is in error by at least this variance.
+  void persist(double slip_variance) {
+    reality_(kSlowSlip, kSlowSlip) = std::max(reality_(kSlowSlip, kSlowSlip), slip_variance);
+  }
 
   /// Root of the sum of the north and east variances after each future step [m].
   std::vector<double> ahead(const std::vector<DriveStep>& steps, const GroundOutlook& outlook) const;

@@ -1,35 +1,34 @@
 #include "core/forecast/forecast_method.h"
 
+#include <cmath>
+
+#include "core/forecast/forecaster.h"
+#include "core/forecast/paper_forecaster.h"
+
 namespace slipnav {
 namespace {
 
-std::variant<Forecaster, PaperForecaster> methodOf(const Planet& planet, const FilterSetup& setup,
-                                                   const ForecastParams& params) {
-  if (params.schedule == "paper") {
-    return PaperForecaster(planet, setup, params);
-  }
-  return Forecaster(planet, setup, params);
+bool isFinite(const Estimate& estimate, const ErrorCovariance& P) {
+  return isFinite(estimate.nav) && estimate.motion.v_eb_b.allFinite() && estimate.f_ib_b.allFinite() &&
+         std::isfinite(estimate.wheels.motion.forward_mps) && P.allFinite();
 }
 
 }  // namespace
 
-ForecastMethod::ForecastMethod(const Planet& planet, const FilterSetup& setup, const ForecastParams& params)
-    : method_(methodOf(planet, setup, params)) {}
-
-std::optional<Forecast> ForecastMethod::push(const Estimate& estimate, const ErrorCovariance& P) {
-  return std::visit([&](auto& method) { return method.push(estimate, P); }, method_);
+std::unique_ptr<ForecastMethod> makeForecastMethod(const Planet& planet, const FilterSetup& setup,
+                                                   const ForecastParams& params) {
+  if (params.schedule == "paper") {
+    return std::make_unique<PaperForecaster>(planet, setup, params);
+  }
+  return std::make_unique<Forecaster>(planet, setup, params);
 }
 
-void ForecastMethod::retune(const FilterSetup& setup, const ForecastParams& params) {
-  std::visit([&](auto& method) { method.retune(setup, params); }, method_);
-}
-
-void ForecastMethod::reset() {
-  std::visit([](auto& method) { method.reset(); }, method_);
-}
-
-const std::string& ForecastMethod::problem() const {
-  return std::visit([](const auto& method) -> const std::string& { return method.problem(); }, method_);
+bool isUsable(const Estimate& estimate, const ErrorCovariance& P, std::string& problem) {
+  if (estimate.has_wheels && !isFinite(estimate, P)) {
+    problem = "the estimate is not finite";
+    return false;
+  }
+  return estimate.has_wheels;
 }
 
 }  // namespace slipnav

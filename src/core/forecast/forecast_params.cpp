@@ -10,14 +10,15 @@ void ForecastParams::visit(ParameterVisitor& v) {
   v.choice("bound", bound, {"growth", "absolute"},
            "growth: of the error since the last stop; absolute: total error, which no stop reduces");
   v.number("sigmas", sigmas, {0.5, 10.0}, "the bound in standard deviations");
-  v.number("window_s", window_s, {1.0, 600.0}, "how much free driving the slip model learns from [s]");
+  v.number("window_s", window_s, {1.0, 600.0}, "how much free driving the slip model learns from: this long [s]");
+  v.number("window_m", window_m, {0.1, 1e4},
+           "and at least this far; with schedule: paper, whichever is reached first [m]");
   v.number("interval_s", interval_s, {0.1, 60.0}, "time between forecasts, in stamps [s]");
   v.number("horizon_s", horizon_s, {1.0, 600.0}, "how far to forecast [s]");
   v.number("step_s", step_s, {0.02, 5.0}, "between simulated wheel measurements [s]");
   v.number("wheel_interval_s", wheel_interval_s, {0.001, 1.0}, "between real ones [s]");
-  v.number("max_age_s", max_age_s, {1.0, 3600.0}, "older slip is dropped from the window, after a long stop [s]");
-  v.number("paper_window_m", paper_window_m, {0.1, 1e4},
-           "with schedule: paper, the window is full after this much driving, or after window_s [m]");
+  v.number("max_age_s", max_age_s, {1.0, 3600.0},
+           "slip from before this much standstill is dropped from the window [s]");
   v.number("speed_window_s", speed_window_s, {0.1, 600.0},
            "the future speed is the mean over this much driving, without starts and stops [s]");
   slip.visit(v);

@@ -22,12 +22,12 @@ struct ForecastParams {
   std::string bound = "growth";
   double sigmas = 3.0;
   double window_s = 15.0;
+  double window_m = 12.0;
   double interval_s = 1.0;
   double horizon_s = 60.0;
   double step_s = 0.5;
   double wheel_interval_s = 0.1;
   double max_age_s = 60.0;
-  double paper_window_m = 12.0;
   double speed_window_s = 3.0;
   SlipModelParameters slip;
   SigmaPointParameters sigma_points;

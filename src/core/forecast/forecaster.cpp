@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/square.h"
-#include "core/slip/slip_ratio.h"
-#include "core/slip/vehicle_slip.h"
 
 namespace slipnav {
 namespace {
@@ -13,22 +12,18 @@ namespace {
 /// Points of the horizon at which the predicted slip's correlation is sampled.
 constexpr int kCorrelationPoints = 61;
 
-/// Of its length, over which side slip is averaged.
-constexpr double kSideSlipShare = 0.5;
+/// Between the times at which the predicted slip is looked at.
+constexpr double kPredictionStep_s = 1.0;
 
-/// Below this share of the highest speed the rover is starting or stopping.
-constexpr double kCruisingShare = 0.7;
+/// Slower than this the rover does not drive: any slip is hidden by its velocity error.
+constexpr double kStandstill_mps = 1e-6;
 
-/// Position in 0 … count − 1 that moves back and forth.
-std::size_t toAndFro(std::size_t i, std::size_t count) {
-  const std::size_t period = std::max<std::size_t>(1, 2 * (count - 1));
-  const std::size_t phase = i % period;
-  return phase < count ? phase : period - phase;
-}
+/// Faster than this the rover turns; what a gyro shows at rest is less.
+constexpr double kTurning_radps = 0.01;
 
-bool isFinite(const Estimate& estimate, const ErrorCovariance& P) {
-  return isFinite(estimate.nav) && estimate.motion.v_eb_b.allFinite() &&
-         std::isfinite(estimate.wheels.motion.forward_mps) && P.allFinite();
+SlipPrediction constantSlip(const Eigen::VectorXd& times_s, double stddev) {
+  const auto count = times_s.size();
+  return {times_s, Eigen::VectorXd::Zero(count), Eigen::VectorXd::Constant(count, stddev)};
 }
 
 bool isFinite(const Forecast& forecast) {
@@ -42,6 +37,7 @@ bool isFinite(const Forecast& forecast) {
 Forecaster::Forecaster(const Planet& planet, const FilterSetup& setup, const ForecastParams& params)
     : setup_(setup),
       params_(params),
+      recent_(params, !setup.filter.uses("wheel")),
       model_(params.slip),
       sigma_points_(params.sigma_points),
       covariance_(planet, setup, params.step_s, params.wheel_interval_s),
@@ -50,33 +46,42 @@ Forecaster::Forecaster(const Planet& planet, const FilterSetup& setup, const For
 void Forecaster::retune(const FilterSetup& setup, const ForecastParams& params) {
   setup_ = setup;
   params_ = params;
+  recent_.retune(params, !setup.filter.uses("wheel"));
   covariance_.retune(setup);
 }
 
 void Forecaster::reset() {
   model_.reset();
   outlook_ = covariance_.assumption();
-  drive_.clear();
+  recent_.reset();
   open_step_ = OpenStep{};
-  newest_ = 0;
+  stopped_ = 0;
+  shown_variance_ = 0.0;
   last_slot_ = 0;
   problem_.clear();
 }
 
 std::optional<Forecast> Forecaster::push(const Estimate& estimate, const ErrorCovariance& P) {
-  if (estimate.nav.stamp <= newest_) {
+  if (std::exchange(newest_, estimate.nav.stamp) >= estimate.nav.stamp) {
     reset();  // the recording restarted
   }
-  newest_ = estimate.nav.stamp;
-  if (!estimate.has_wheels) {
-    return std::nullopt;
-  }
-  if (!isFinite(estimate, P)) {
-    problem_ = "the estimate is not finite";
+  if (!isUsable(estimate, P, problem_)) {
     return std::nullopt;
   }
   follow(estimate, P);
-  return collect(estimate) && isDue(estimate.nav.stamp) ? make(estimate) : std::nullopt;
+  if (!isMoving(estimate)) {
+    return std::nullopt;
+  }
+  recent_.add(estimate);
+  watchSlip(estimate);
+  const bool knows_speed = recent_.intervals() >= static_cast<std::size_t>(params_.slip.min_samples);
+  return isDue(estimate.nav.stamp) && knows_speed ? make(estimate) : std::nullopt;
+}
+
+/// A rover at rest that the filter has not recognized yet says nothing about how it will drive.
+bool Forecaster::isMoving(const Estimate& estimate) const {
+  return !estimate.stationary && (std::abs(estimate.wheels.motion.forward_mps) > setup_.stationary.wheel_speed_mps ||
+                                  std::abs(estimate.omega_ib_b.z()) > kTurning_radps);
 }
 
 void Forecaster::follow(const Estimate& estimate, const ErrorCovariance& P) {
@@ -84,6 +89,8 @@ void Forecaster::follow(const Estimate& estimate, const ErrorCovariance& P) {
   if (open_step_.begin == 0 || estimate.stationary) {
     covariance_.restart(P, params_.bound == "growth");
     open_step_ = {now, estimate.nav.v_eb_n, 0.0, 0.0};
+    stopped_ = now;
+    shown_variance_ = 0.0;
     return;
   }
   open_step_.samples += 1.0;
@@ -103,21 +110,22 @@ void Forecaster::follow(const Estimate& estimate, const ErrorCovariance& P) {
   open_step_ = {now, estimate.nav.v_eb_n, 0.0, 0.0};
 }
 
-bool Forecaster::collect(const Estimate& estimate) {
-  const double v_x = estimate.motion.v_eb_b.x();
-  const std::optional<double> slip =
-      estimate.stationary ? std::nullopt : slipRatio(v_x, estimate.wheels.motion.forward_mps, kMinSpeedForSlip_mps);
-  if (!slip || std::abs(*slip) >= 1.0) {
-    return false;
+/// Slip that comes and goes again may have stayed: a filter that believes its wheels makes it a velocity error, which
+/// shows at the next stop at the earliest. So the largest slip since the last one is remembered, over a way on which
+/// the mean of varying slip is no larger than usual persistent slip, less what varying slip and velocity error explain.
+void Forecaster::watchSlip(const Estimate& estimate) {
+  const GroundOutlook filter = covariance_.assumption(estimate.noise_factors);
+  const double usual = square(filter.drift_std);
+  const double way_m = 2.0 * setup_.vehicle.fast_slip_length_m * square(filter.change_std) / usual;
+  if (const std::optional<double> mean = recent_.meanSlip(way_m, stopped_)) {
+    const double speed_mps = std::max(std::abs(estimate.motion.v_eb_b.x()), kStandstill_mps);
+    const double hidden = covariance_.forwardVariance(estimate.nav) / square(speed_mps);
+    const double shown = square(*mean) - usual - hidden;
+    if (shown > shown_variance_) {
+      shown_variance_ = shown;
+      covariance_.persist(shown);
+    }
   }
-  drive_.push_back({estimate.nav.stamp, *slip, v_x, slipAngle(estimate.motion.v_eb_b, estimate.vehicle),
-                    estimate.wheel_speed_used, estimate.nav.q_b_to_n});
-  // This many intervals of driving, regardless of the stops between them.
-  const auto most = static_cast<std::size_t>(std::lround(params_.window_s / params_.wheel_interval_s));
-  while (drive_.size() > most || toSeconds(drive_.back().stamp - drive_.front().stamp) > params_.max_age_s) {
-    drive_.pop_front();
-  }
-  return true;
 }
 
 bool Forecaster::isDue(Nanoseconds stamp) {
@@ -127,101 +135,48 @@ bool Forecaster::isDue(Nanoseconds stamp) {
   return due;
 }
 
-SlipSamples Forecaster::window() const {
-  // The filter does not navigate by what it treats as the slip impulse of a wheel that has lost grip.
-  const bool all = !setup_.filter.uses("wheel");
-  SlipSamples samples;
-  for (const Drive& drive : drive_) {
-    if (all || drive.wheel_speed_used) {
-      samples.times_s.push_back(toSeconds(drive.stamp - drive_.front().stamp));
-      samples.slips.push_back(drive.slip);
-    }
-  }
-  return samples;
-}
-
 std::optional<Forecast> Forecaster::make(const Estimate& estimate) {
   Forecast forecast;
-  forecast.fit = model_.fit(window());
-  if (!isAccepted(forecast.fit.status)) {
-    problem_ = toString(forecast.fit.status);
-    return std::nullopt;
-  }
-  problem_.clear();
-  const double now_s = toSeconds(drive_.back().stamp - drive_.front().stamp);
-  const auto count = static_cast<Eigen::Index>(std::lround(params_.horizon_s / params_.wheel_interval_s));
-  forecast.slip =
-      model_.predict(Eigen::VectorXd::LinSpaced(count, now_s + params_.wheel_interval_s, now_s + params_.horizon_s));
-  forecast.slip.times_s.array() -= now_s;
-  forecast.correlation = summarizeCorrelation(model_, now_s, params_.horizon_s, kCorrelationPoints);
-  learnGround(forecast);
-  weighAgainstFilter(estimate);
+  forecast.fit = model_.fit(recent_.slip());
+  learnGround(estimate, forecast);
   forecast.outlook = outlook_;
   forecast.error.stamp = estimate.nav.stamp;
   forecast.error.threshold_m = params_.threshold_m;
   boundError(covariance_.ahead(wayAhead(estimate), outlook_), forecast.error);
   forecast.error.stop_distance_m = std::abs(outlook_.speed_mps) * forecast.error.time_to_stop_s;
-  if (!isFinite(forecast)) {
-    problem_ = "the forecast is not finite";
-    return std::nullopt;
-  }
-  return forecast;
+  problem_ = isFinite(forecast) ? "" : "the forecast is not finite";
+  return problem_.empty() ? std::optional(std::move(forecast)) : std::nullopt;
 }
 
-/// Mean of the newest speeds, without starts and stops: the path ahead is assumed to be driven at the same speed.
-double Forecaster::cruisingSpeed() const {
-  const auto slower = [](const Drive& a, const Drive& b) { return std::abs(a.speed_mps) < std::abs(b.speed_mps); };
-  const double fastest_mps = std::abs(std::max_element(drive_.begin(), drive_.end(), slower)->speed_mps);
-  const double most = std::max(1.0, params_.speed_window_s / params_.wheel_interval_s);
-  double sum_mps = 0.0;
-  double count = 0.0;
-  for (auto drive = drive_.rbegin(); drive != drive_.rend() && count < most; ++drive) {
-    if (std::abs(drive->speed_mps) >= kCruisingShare * fastest_mps) {
-      sum_mps += drive->speed_mps;
-      count += 1.0;
-    }
+/// Without a window the filter's own expectation is the forecast.
+void Forecaster::learnGround(const Estimate& estimate, Forecast& forecast) {
+  outlook_ = covariance_.assumption(estimate.noise_factors);
+  outlook_.speed_mps = outlook_.wheel_speed_mps = recent_.cruisingSpeed();
+  outlook_.wheel_share = recent_.wheelShare();
+  if (isAccepted(forecast.fit.status)) {
+    predictSlip(estimate.nav.stamp, forecast);
+    learnSlip(forecast);
+    weighAgainstFilter(estimate);
+  } else {
+    forecast.slip = constantSlip(timesAhead(), std::hypot(outlook_.drift_std, outlook_.change_std));
   }
-  return sum_mps / count;
 }
 
-void Forecaster::learnSpeedAndSideSlip() {
-  double used = 0.0;
-  for (const Drive& drive : drive_) {
-    used += drive.wheel_speed_used ? 1.0 : 0.0;
-  }
-  outlook_.speed_mps = cruisingSpeed();
-  outlook_.wheel_share = used / static_cast<double>(drive_.size());
-  outlook_.side_slip_std_rad = sideSlipSpread();
+/// Every whole second of the horizon, which has at least one.
+Eigen::VectorXd Forecaster::timesAhead() const {
+  const double count = std::max(1.0, std::floor(params_.horizon_s / kPredictionStep_s));
+  return Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(count), kPredictionStep_s, count * kPredictionStep_s);
 }
 
-/// Scatter of the side slip that lasts. From one interval to the next a body sways without moving the vehicle, so means
-/// over a part of the side slip's own length are compared.
-double Forecaster::sideSlipSpread() const {
-  const double length_m = kSideSlipShare * setup_.vehicle.side_slip_length_m;
-  double sum = 0.0;
-  double sum2 = 0.0;
-  double means = 0.0;
-  double way_m = 0.0;
-  double angle_m = 0.0;
-  for (const Drive& drive : drive_) {
-    const double step_m = std::abs(drive.speed_mps) * params_.wheel_interval_s;
-    way_m += step_m;
-    angle_m += step_m * drive.side_slip_rad;
-    if (way_m >= length_m) {
-      sum += angle_m / way_m;
-      sum2 += square(angle_m / way_m);
-      means += 1.0;
-      way_m = angle_m = 0.0;
-    }
-  }
-  if (means < 2.0) {
-    return degToRad(setup_.vehicle.side_slip_std_deg);
-  }
-  return std::sqrt(std::max(0.0, (sum2 - sum * sum / means) / (means - 1.0)));
+void Forecaster::predictSlip(Nanoseconds now, Forecast& forecast) const {
+  const double now_s = toSeconds(now - recent_.origin());
+  const Eigen::VectorXd ahead_s = timesAhead();
+  forecast.slip = model_.predict(ahead_s.array() + now_s);
+  forecast.slip.times_s = ahead_s;
+  forecast.correlation = summarizeCorrelation(model_, now_s, params_.horizon_s, kCorrelationPoints);
 }
 
-void Forecaster::learnGround(const Forecast& forecast) {
-  learnSpeedAndSideSlip();
+void Forecaster::learnSlip(const Forecast& forecast) {
   const double speed_mps = std::abs(outlook_.speed_mps);
   const double mean_slip = forecast.slip.mean.mean();
   const double noise_std = std::sqrt(forecast.fit.hyperparameter("noise_variance"));
@@ -234,7 +189,8 @@ void Forecaster::learnGround(const Forecast& forecast) {
   outlook_.drift_std = steepness * std::max(forecast.correlation.bias_stddev, std::abs(mean_slip));
   outlook_.change_std = steepness * forecast.correlation.stddev;
   outlook_.change_time_s = std::max(forecast.correlation.time_constant_s, params_.wheel_interval_s);
-  outlook_.wheel_noise_variance = square(setup_.wheel.speed_std_mps) + square(wheel.sensitivity_mps * noise_std);
+  outlook_.wheel_noise_variance =
+      square(setup_.wheel.speed_std_mps) + recent_.intervalsPerSlip() * square(wheel.sensitivity_mps * noise_std);
 }
 
 /// The slip in the window is what the filter estimates, and includes its velocity error. So varying slip is at most
@@ -244,11 +200,11 @@ void Forecaster::weighAgainstFilter(const Estimate& estimate) {
   const GroundOutlook filter = covariance_.assumption(estimate.noise_factors);
   outlook_.change_std = std::min(outlook_.change_std, filter.change_std);
   outlook_.wheel_noise_variance = std::min(outlook_.wheel_noise_variance, filter.wheel_noise_variance);
-  const double speed_mps = std::max(std::abs(outlook_.speed_mps), kMinSpeedForSlip_mps);
+  const double speed_mps = std::max(std::abs(outlook_.speed_mps), kStandstill_mps);
   const double hidden = covariance_.forwardVariance(estimate.nav) / square(speed_mps);
   const double seen = square(outlook_.drift_std);
   const double usual = square(filter.drift_std);
-  outlook_.drift_std = std::sqrt(std::max(seen, std::min(usual, seen + hidden)));
+  outlook_.drift_std = std::sqrt(std::max({seen, shown_variance_, std::min(usual, seen + hidden)}));
 }
 
 std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {
@@ -259,7 +215,7 @@ std::vector<DriveStep> Forecaster::wayAhead(const Estimate& estimate) const {
   for (std::size_t i = 0; i < count; ++i) {
     DriveStep& step = steps[i];
     step.state = estimate.nav;
-    step.state.q_b_to_n = drive_[drive_.size() - 1 - toAndFro((i + 1) * stride, drive_.size())].q_b_to_n;
+    step.state.q_b_to_n = recent_.attitude((i + 1) * stride);
     step.state.v_eb_n = step.state.q_b_to_n * Vector3(outlook_.speed_mps, 0.0, 0.0);
     step.acceleration_n = (step.state.v_eb_n - v_before_n) / params_.step_s;
     step.speed_mps = outlook_.speed_mps;

@@ -9,7 +9,8 @@ namespace {
 constexpr int kOdometryRows = 4;
 
 ErrorTransition imuStep(const ErrorDynamics& dynamics, const Estimate& estimate, double imu_step_s) {
-  ErrorTransition t = dynamics.transition(estimate.nav, estimate.nav, estimate.f_ib_b, estimate.omega_ib_b, imu_step_s);
+  ErrorTransition t = dynamics.transition(estimate.nav, estimate.nav, estimate.f_ib_b, estimate.omega_ib_b,
+                                          Vector3::Zero(), imu_step_s);
   GroundStep ground = dynamics.ground();
   ground.way_m = std::abs(estimate.wheels.motion.forward_mps) * imu_step_s;
   ground.slow_slip_variance *= estimate.noise_factors.slow_slip;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/slip/slip_ratio.h"
 #include "core/slip/vehicle_slip.h"
 
 namespace slipnav {
@@ -11,11 +11,6 @@ namespace {
 
 /// A countdown that expired this long ago without a standstill was ignored [s].
 constexpr double kUnheeded_s = 6.0;
-
-bool isFinite(const Estimate& estimate, const ErrorCovariance& P) {
-  return isFinite(estimate.nav) && estimate.motion.v_eb_b.allFinite() && estimate.f_ib_b.allFinite() &&
-         std::isfinite(estimate.wheels.motion.forward_mps) && P.allFinite();
-}
 
 }  // namespace
 
@@ -34,21 +29,15 @@ void PaperForecaster::retune(const FilterSetup& setup, const ForecastParams& par
 void PaperForecaster::reset() {
   model_.reset();
   window_ = Window{};
-  newest_ = 0;
   kept_until_ = 0;
   problem_.clear();
 }
 
 std::optional<Forecast> PaperForecaster::push(const Estimate& estimate, const ErrorCovariance& P) {
-  if (estimate.nav.stamp <= newest_) {
+  if (std::exchange(newest_, estimate.nav.stamp) >= estimate.nav.stamp) {
     reset();  // the recording restarted
   }
-  newest_ = estimate.nav.stamp;
-  if (!estimate.has_wheels) {
-    return std::nullopt;
-  }
-  if (!isFinite(estimate, P)) {
-    problem_ = "the estimate is not finite";
+  if (!isUsable(estimate, P, problem_)) {
     return std::nullopt;
   }
   if (estimate.stationary) {
@@ -65,7 +54,7 @@ std::optional<Forecast> PaperForecaster::push(const Estimate& estimate, const Er
 
 void PaperForecaster::collect(const Estimate& estimate) {
   const double v_x = estimate.motion.v_eb_b.x();
-  const std::optional<double> slip = slipRatio(v_x, estimate.wheels.motion.forward_mps, kMinSpeedForSlip_mps);
+  const std::optional<double> slip = meanSlip(estimate);
   if (!slip) {
     return;
   }
@@ -82,8 +71,7 @@ void PaperForecaster::collect(const Estimate& estimate) {
 }
 
 bool PaperForecaster::isFull() const {
-  return window_.driven_s >= params_.window_s - 0.5 * params_.wheel_interval_s ||
-         window_.driven_m >= params_.paper_window_m;
+  return window_.driven_s >= params_.window_s - 0.5 * params_.wheel_interval_s || window_.driven_m >= params_.window_m;
 }
 
 std::optional<Forecast> PaperForecaster::make(const Estimate& estimate, const ErrorCovariance& P) {

@@ -6,29 +6,23 @@
 #include <string>
 #include <vector>
 
-#include "core/forecast/forecaster.h"
+#include "core/forecast/forecast_method.h"
 #include "core/forecast/frozen_filter.h"
+#include "core/forecast/sigma_points.h"
 
 namespace slipnav {
 
-/// Receives every estimate, like Forecaster, and makes one forecast per window of driving.
-class PaperForecaster {
+/// Makes one forecast per window of driving.
+class PaperForecaster final : public ForecastMethod {
  public:
   /// Throws std::invalid_argument naming a parameter that is out of range.
   PaperForecaster(const Planet& planet, const FilterSetup& setup, const ForecastParams& params);
 
-  /// Takes each estimate of the filter in order, with its covariance. A standstill starts a new window, and so does a
-  /// forecast that predicts no stop, or a countdown that was ignored.
-  std::optional<Forecast> push(const Estimate& estimate, const ErrorCovariance& P);
-
-  /// Applies a new threshold, window, horizon and measurement noise from the next estimate on.
-  void retune(const FilterSetup& setup, const ForecastParams& params);
-
-  /// Forgets everything.
-  void reset();
-
-  /// Why the last forecast that was due could not be made; empty if it could.
-  const std::string& problem() const { return problem_; }
+  /// A standstill starts a new window, and so does a forecast that predicts no stop, or a countdown that was ignored.
+  std::optional<Forecast> push(const Estimate& estimate, const ErrorCovariance& P) override;
+  void retune(const FilterSetup& setup, const ForecastParams& params) override;
+  void reset() override;
+  const std::string& problem() const override { return problem_; }
 
  private:
   /// Free driving since the last stop or forecast.

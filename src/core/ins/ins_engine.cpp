@@ -1,41 +1,25 @@
 #include "slipnav/core/ins/ins_engine.h"
 
-#include <algorithm>
-
 namespace slipnav {
 namespace {
 
-constexpr std::size_t kInitialRing = 4096;
-constexpr std::size_t kLargestRing = 1U << 18U;  // four minutes at 1 kHz, while waiting for an initial state
+constexpr std::size_t kMaxMechanized = 4096;
+constexpr std::size_t kMaxSlots = 1U << 18U;  // four minutes at 1 kHz, while waiting for an initial state
 
 }  // namespace
 
-InsEngine::InsEngine(const Planet& planet, const ImuInputParams& params)
-    : strapdown_(planet),
-      screen_(params),
-      instantaneous_(params.sampling == "instantaneous"),
-      gap_factor_(params.gap_factor),
-      max_bridged_gap_s_(params.max_bridged_gap_s),
-      ring_(kInitialRing) {}
-
-void InsEngine::reset() {
-  first_ = next_ = end_ = begin_ = base_ = 0;
-  epoch_ = 0;
-  initialised_ = false;
-  screen_.reset();
-}
-
-void InsEngine::initialise(const NavigationState& state) {
-  dropUpTo(state.stamp);
-  begin_ = base_ = next_ = first_;
+void InsEngine::initialize(const NavigationState& state) {
+  while (!slots_.empty() && slots_.front().end <= state.stamp) {
+    slots_.pop_front();
+  }
+  next_ = 0;
   epoch_ = 0;
   initial_ = state;
-  initialised_ = true;
+  initialized_ = true;
 }
 
 void InsEngine::adopt(const Correction& correction) {
-  initialise(correction.state);
-  base_ = begin_ - (correction.sequence + 1);
+  initialize(correction.state);
   epoch_ = correction.epoch;
 }
 
@@ -50,72 +34,51 @@ ImuInterval InsEngine::steadyTurn(const NavigationState& state, const ImuInterva
           interval.duration_s};
 }
 
-void InsEngine::dropUpTo(Nanoseconds stamp) {
-  while (first_ < end_ && slot(first_).end <= stamp) {
-    ++first_;
-  }
-}
-
-void InsEngine::append(const Slot& new_slot) {
-  if (end_ - first_ == ring_.size()) {
-    makeRoom();
-  }
-  slot(end_++) = new_slot;
-}
-
-void InsEngine::makeRoom() {
-  const bool mostly_waiting = next_ - first_ <= ring_.size() / 2;
-  if (mostly_waiting && ring_.size() < kLargestRing) {
-    std::vector<Slot> larger(2 * ring_.size());
-    for (std::uint64_t i = first_; i < end_; ++i) {
-      larger[i & (larger.size() - 1)] = slot(i);
+void InsEngine::append(const Slot& slot) {
+  if (next_ > kMaxMechanized || slots_.size() >= kMaxSlots) {
+    if (next_ > 0) {
+      initial_ = slots_.front().state;
+      --next_;
     }
-    ring_.swap(larger);
-    return;
+    slots_.pop_front();
   }
-  ++first_;
-  next_ = std::max(next_, first_ + 1);
+  slots_.push_back(slot);
 }
 
 ImuVerdict InsEngine::push(const ImuSample& sample) {
-  const ImuSample before = newest_;
   const ImuScreen::Result result = screen_.check(sample);
-  if (!isAccepted(result.verdict)) {
-    return result.verdict;
+  if (result.verdict == ImuVerdict::kTimeWentBack) {
+    slots_.clear();
+    next_ = 0;
+    initialized_ = false;
   }
-  newest_ = sample;
-  if (result.duration_s > 0.0) {
-    Slot added{sample.stamp, {sample.f_ib_b, sample.omega_ib_b, result.duration_s}, result.gap_s, {}};
-    if (result.verdict == ImuVerdict::kAfterGap || instantaneous_) {
-      added.interval.f_ib_b = 0.5 * (before.f_ib_b + sample.f_ib_b);
-      added.interval.omega_ib_b = 0.5 * (before.omega_ib_b + sample.omega_ib_b);
-    }
-    append(added);
+  if (isAccepted(result.verdict) && result.interval.duration_s > 0.0) {
+    append({sample.stamp, result.interval, result.gap_s, {}});
   }
   return result.verdict;
 }
 
 std::optional<InsStep> InsEngine::step() {
-  if (!initialised_ || next_ == end_) {
+  if (!initialized_ || next_ == slots_.size()) {
     return std::nullopt;
   }
-  const bool is_first = next_ == begin_;
-  Slot& current = slot(next_);
-  const NavigationState& start = is_first ? initial_ : slot(next_ - 1).state;
+  const bool is_first = next_ == 0;
+  Slot& current = slots_[next_];
+  const NavigationState& start = is_first ? initial_ : slots_[next_ - 1].state;
   ImuInterval interval = current.interval;
   double gap_s = current.gap_s;
   if (is_first) {  // the initial state may lie inside the interval of the next sample, or before it
     const double duration_s = toSeconds(current.end - start.stamp);
-    if (duration_s > gap_factor_ * interval.duration_s) {
+    if (duration_s > params_.gap_factor * interval.duration_s) {
       gap_s = duration_s - interval.duration_s;
     }
     interval.duration_s = duration_s;
   }
-  if (gap_s > max_bridged_gap_s_) {
+  if (gap_s > params_.max_bridged_gap_s) {
     interval = steadyTurn(start, interval);
   }
   // The rates before a gap say nothing about those in it.
-  const ImuInterval previous = is_first || gap_s > 0.0 ? ImuInterval{} : slot(next_ - 1).interval;
+  const ImuInterval previous = is_first || gap_s > 0.0 ? ImuInterval{} : slots_[next_ - 1].interval;
   if (current.gap_s > kLongestGap_s) {
     current.state = start;
     current.state.stamp = current.end;
@@ -124,7 +87,6 @@ std::optional<InsStep> InsEngine::step() {
   }
 
   InsStep result;
-  result.sequence = next_ - base_;
   result.epoch = epoch_;
   result.start = start.stamp;
   result.state = current.state;
@@ -136,13 +98,18 @@ std::optional<InsStep> InsEngine::step() {
 }
 
 bool InsEngine::correct(const Correction& correction) {
-  const std::uint64_t index = base_ + correction.sequence;
-  if (!initialised_ || index < first_ || index >= next_) {
+  std::size_t index = 0;
+  while (index < next_ && slots_[index].end < correction.state.stamp) {
+    ++index;
+  }
+  if (!initialized_ || index == next_ || slots_[index].end != correction.state.stamp) {
     return false;
   }
-  slot(index).state = correction.state;
-  first_ = index;
-  next_ = index + 1;
+  for (; index > 0; --index) {
+    slots_.pop_front();
+  }
+  slots_.front().state = correction.state;
+  next_ = 1;
   epoch_ = correction.epoch;
   return true;
 }

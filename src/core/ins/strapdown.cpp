@@ -29,10 +29,17 @@ Vector3 resolveAlongTurn(const Vector3& alpha, const Vector3& v) {
 
 /// Rates that vary linearly over two adjoining intervals T1, T2 give coning ½∫(α×ω)dt = k α1×α2 and sculling
 /// k (α1×υ2 + υ1×α2) with k = T2² / (6 T1 (T1+T2)), which is the customary 1/12 for equal intervals.
+///
+/// An IMU away from its configured place feels in addition α × l + ω × (ω × l) (Groves 4.4.4, size effect). The change
+/// of the mean rate stands for ∫α dt: over many intervals it adds up to ω(t) − ω(0), whatever its noise.
 Increments increments(const NavigationState& state, const ImuInterval& previous, const ImuInterval& current) {
   const double T = current.duration_s;
-  const Vector3 alpha = (current.omega_ib_b - state.gyro_bias_b) * T;
-  const Vector3 upsilon = (current.f_ib_b - state.accel_bias_b) * T;
+  const Vector3 omega = current.omega_ib_b - state.gyro_bias_b;
+  const Vector3 alpha = omega * T;
+  Vector3 upsilon = (current.f_ib_b - state.accel_bias_b - omega.cross(omega.cross(state.imu_offset_b))) * T;
+  if (previous.duration_s > 0.0) {
+    upsilon -= (current.omega_ib_b - previous.omega_ib_b).cross(state.imu_offset_b);
+  }
   Increments result{alpha, resolveAlongTurn(alpha, upsilon)};
   const double T1 = previous.duration_s;
   if (T1 > 0.0) {
@@ -61,7 +68,7 @@ Geodetic advance(const Planet& planet, const Geodetic& start, const Vector3& v_e
 
 bool isFinite(const NavigationState& s) {
   return s.q_b_to_n.coeffs().allFinite() && s.v_eb_n.allFinite() && s.accel_bias_b.allFinite() &&
-         s.gyro_bias_b.allFinite() && std::isfinite(s.position.latitude_rad) &&
+         s.gyro_bias_b.allFinite() && s.imu_offset_b.allFinite() && std::isfinite(s.position.latitude_rad) &&
          std::isfinite(s.position.longitude_rad) && std::isfinite(s.position.height_m);
 }
 

@@ -20,7 +20,7 @@
 namespace slipnav {
 namespace {
 
-constexpr const char* kFormat = "slipnav checkpoint 1";
+constexpr const char* kFormat = "slipnav checkpoint 2";
 constexpr std::size_t kMaxHyperparameters = 64;
 constexpr double kUnitTolerance = 1e-6;
 
@@ -149,7 +149,7 @@ void checkState(const InitialState& state) {
   const Eigen::LLT<ErrorCovariance> cholesky(state.P);
   const bool possible = state.nav.stamp > 0 && std::abs(state.nav.q_b_to_n.norm() - 1.0) < kUnitTolerance &&
                         std::abs(state.nav.position.latitude_rad) < 0.5 * kPi &&
-                        std::abs(state.origin.latitude_rad) < 0.5 * kPi && state.tremor_variance >= 0.0 &&
+                        std::abs(state.origin.latitude_rad) < 0.5 * kPi && state.standstill_variance >= 0.0 &&
                         state.P.isApprox(state.P.transpose(), kUnitTolerance) && cholesky.info() == Eigen::Success;
   if (!possible) {
     refuse("contains an impossible state");
@@ -204,9 +204,10 @@ std::string formatCheckpoint(const Checkpoint& checkpoint) {
   writeLine("position", valuesOf(state.nav.position), text);
   writeLine("accel_bias_b", valuesOf(state.nav.accel_bias_b), text);
   writeLine("gyro_bias_b", valuesOf(state.nav.gyro_bias_b), text);
+  writeLine("imu_offset_b", valuesOf(state.nav.imu_offset_b), text);
   writeLine("vehicle", valuesOf(state.vehicle), text);
   writeLine("origin", valuesOf(state.origin), text);
-  writeLine("tremor_variance", {state.tremor_variance}, text);
+  writeLine("standstill_variance", {state.standstill_variance}, text);
   writeLine("slip_hyperparameters", checkpoint.slip_hyperparameters, text);
   writeLine("covariance", valuesOf(state.P), text);
   return withChecksum(text.str());
@@ -226,10 +227,11 @@ Checkpoint parseCheckpoint(const std::string& text) {
   state.nav.position = lines.position("position");
   state.nav.accel_bias_b = lines.vector("accel_bias_b");
   state.nav.gyro_bias_b = lines.vector("gyro_bias_b");
+  state.nav.imu_offset_b = lines.vector("imu_offset_b");
   const Values vehicle = lines.numbers("vehicle", 6);
   state.vehicle = {vehicle[0], vehicle[1], vehicle[2], vehicle[3], vehicle[4], vehicle[5]};
   state.origin = lines.position("origin");
-  state.tremor_variance = lines.numbers("tremor_variance", 1).front();
+  state.standstill_variance = lines.numbers("standstill_variance", 1).front();
   checkpoint.slip_hyperparameters = lines.list("slip_hyperparameters", kMaxHyperparameters);
   const Values covariance = lines.numbers("covariance", kErrorStates * kErrorStates);
   state.P = Eigen::Map<const Eigen::Matrix<double, kErrorStates, kErrorStates, Eigen::RowMajor>>(covariance.data());

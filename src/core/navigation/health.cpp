@@ -72,7 +72,7 @@ void HealthMonitor::noteSetBack(double step_s, Nanoseconds stamp) {
 void HealthMonitor::noteImu(Nanoseconds stamp, ImuVerdict verdict) {
   if (verdict == ImuVerdict::kAfterGap) {
     note("IMU gap", stamp);
-  } else if (!isAccepted(verdict)) {
+  } else if (verdict != ImuVerdict::kAccepted) {
     note(std::string("IMU sample ") + complaintOf(verdict), stamp);
   }
 }
@@ -88,7 +88,7 @@ void HealthMonitor::noteWheels(const WheelMotion& wheels, bool taken) {
 }
 
 void HealthMonitor::noteFilter(const FilterEngine& filter) {
-  if (!filter.isInitialised()) {
+  if (!filter.isInitialized()) {
     return;
   }
   const Nanoseconds now = filter.state().stamp;

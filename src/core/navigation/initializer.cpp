@@ -5,9 +5,9 @@
 
 #include "core/base/square.h"
 #include "core/ins/levelling.h"
+#include "core/navigation/navigator.h"
 #include "core/navigation/start_covariance.h"
 #include "slipnav/core/base/rotation.h"
-#include "slipnav/core/navigation/navigator.h"
 
 namespace slipnav {
 namespace {
@@ -333,16 +333,19 @@ InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until
   setup.gnss = FixParams();  // all fixes are already there
   Navigator navigator(planet_, imu_params_, setup);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+  auto velocity = recording_.velocityFixes().begin();
+  const auto pushVelocitiesUntil = [&](Nanoseconds stamp) {
+    for (; velocity != recording_.velocityFixes().end() && velocity->stamp <= stamp; ++velocity) {
+      navigator.push(*velocity);
+    }
+  };
   for (const PositionFix& fix : recording_.fixes()) {
     if (fix.stamp <= until) {
+      pushVelocitiesUntil(fix.stamp);
       navigator.push(fix);
     }
   }
-  for (const VelocityFix& fix : recording_.velocityFixes()) {
-    if (fix.stamp <= until) {
-      navigator.push(fix);
-    }
-  }
+  pushVelocitiesUntil(until);
   for (const WheelMotion& wheels : recording_.wheels()) {
     if (wheels.stamp <= until) {
       navigator.push(wheels, ignore);
@@ -353,7 +356,7 @@ InitialState Initializer::runFilter(const InitialState& start, Nanoseconds until
       navigator.push(sample, ignore);
     }
   }
-  navigator.initialise(start);
+  navigator.initialize(start);
   navigator.completeUpTo(until, ignore);
   InitialState result = navigator.filter().snapshot();
   result.origin = start.origin;

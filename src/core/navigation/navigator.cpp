@@ -1,43 +1,43 @@
-#include "slipnav/core/navigation/navigator.h"
+#include "core/navigation/navigator.h"
 
 namespace slipnav {
 
-Navigator::Navigator(const Planet& planet, const ImuInputParams& imu, const FilterSetup& setup)
-    : ins_(planet, imu), filter_(planet, setup) {}
+void Navigator::take(const Start& start) {
+  mechanizer_.take(start);
+  estimator_.take(start);
+}
 
-void Navigator::initialise(const InitialState& initial) {
-  ins_.initialise(initial.nav);
-  filter_.initialise(initial);
+void Navigator::initialize(const InitialState& initial) {
+  take({estimator_.start() + 1, mechanizer_.session(), initial});
 }
 
 ImuVerdict Navigator::push(const ImuSample& sample, const FilterEngine::EstimateSink& sink) {
-  const ImuVerdict verdict = ins_.push(sample);
+  const ImuVerdict verdict = mechanizer_.push(sample);
   pump(sink);
   return verdict;
 }
 
 bool Navigator::push(const WheelMotion& wheels, const FilterEngine::EstimateSink& sink) {
-  const bool taken = filter_.push(wheels);
+  const bool taken = estimator_.push(wheels);
   pump(sink);
   return taken;
 }
 
 void Navigator::completeUpTo(Nanoseconds stamp, const FilterEngine::EstimateSink& sink) {
-  filter_.assumeCompleteUpTo(stamp);
+  estimator_.assumeCompleteUpTo(stamp);
   pump(sink);
 }
 
 void Navigator::pump(const FilterEngine::EstimateSink& sink) {
-  std::optional<Correction> correction;
+  const auto push = [this](const InsStep& step) { estimator_.push(mechanizer_.start(), step); };
+  std::optional<Reply> reply;
   do {
-    if (correction) {
-      ins_.correct(*correction);
+    if (reply) {
+      mechanizer_.take(*reply);
     }
-    while (const std::optional<InsStep> step = ins_.step()) {
-      filter_.push(*step);
-    }
-    correction = filter_.advance(sink);
-  } while (correction);
+    mechanizer_.run(push);
+    reply = estimator_.advance(sink);
+  } while (reply);
 }
 
 }  // namespace slipnav

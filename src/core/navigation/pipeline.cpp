@@ -2,110 +2,108 @@
 
 #include <utility>
 
+#include "core/navigation/navigator.h"
+#include "core/navigation/starter.h"
+#include "slipnav/core/ordering/imu_clock.h"
+
 namespace slipnav {
 
+struct Pipeline::Parts {
+  Parts(const Planet& planet, const NavigationSetup& setup)
+      : imu_clock(setup.imu_input.gap_factor),
+        starter(planet, setup),
+        navigator(planet, setup.imu_input, setup.filter) {}
+
+  ImuClock imu_clock;
+  Starter starter;
+  Navigator navigator;
+};
+
 Pipeline::Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEngine::EstimateSink sink)
-    : planet_(planet),
-      setup_(setup),
+    : parts_(std::make_unique<Parts>(planet, setup)),
+      uses_fixes_(setup.filter.gnss.always()),
       sink_(std::move(sink)),
-      imu_clock_(setup.imu_input.gap_factor),
-      initializer_(planet, setup.initialization, setup.imu_input, setup.filter),
-      navigator_(planet, setup.imu_input, setup.filter),
       health_(setup.filter) {}
 
-void Pipeline::onInnovation(const InnovationSink& sink) {
-  on_innovation_ = sink;
-  navigator_.onInnovation(sink);
-}
+Pipeline::Pipeline(const Pipeline& other)
+    : parts_(std::make_unique<Parts>(*other.parts_)),
+      uses_fixes_(other.uses_fixes_),
+      sink_(other.sink_),
+      initial_(other.initial_),
+      counts_(other.counts_),
+      health_(other.health_) {}
 
-void Pipeline::keepHistory(const std::shared_ptr<FilterHistory>& history) {
-  history_ = history;
-  navigator_.keepHistory(history);
-}
+Pipeline::Pipeline(Pipeline&& other) noexcept = default;
+Pipeline::~Pipeline() = default;
 
-void Pipeline::restart() {
-  initializer_.reset();
-  navigator_ = Navigator(planet_, setup_.imu_input, setup_.filter);
-  navigator_.onInnovation(on_innovation_);
-  navigator_.keepHistory(history_);
-  initial_.reset();
-  health_.restart();
-  ++counts_.restarts;
-}
+const Initializer& Pipeline::initializer() const { return parts_->starter.initializer(); }
+const FilterEngine& Pipeline::filter() const { return parts_->navigator.filter(); }
+
+void Pipeline::onInnovation(const InnovationSink& sink) { parts_->navigator.onInnovation(sink); }
+
+void Pipeline::keepHistory(const std::shared_ptr<FilterHistory>& history) { parts_->navigator.keepHistory(history); }
 
 void Pipeline::push(const ImuSample& sample) {
   ++counts_.imu;
-  imu_clock_.push(sample);
-  while (const std::optional<ImuSample> corrected = imu_clock_.pop()) {
+  parts_->imu_clock.push(sample);
+  while (const std::optional<ImuSample> corrected = parts_->imu_clock.pop()) {
     use(*corrected);
   }
-  health_.noteStamps(imu_clock_.faults(), sample.stamp);
+  health_.noteStamps(parts_->imu_clock.faults(), sample.stamp);
 }
 
 void Pipeline::use(const ImuSample& sample) {
-  ImuVerdict verdict = navigator_.push(sample, sink_);
+  const ImuVerdict verdict = parts_->navigator.push(sample, sink_);
   health_.noteImu(sample.stamp, verdict);
-  health_.noteFilter(navigator_.filter());
+  health_.noteFilter(filter());
   if (verdict == ImuVerdict::kTimeWentBack) {
-    restart();
-    verdict = navigator_.push(sample, sink_);
+    health_.restart();
+    ++counts_.restarts;
   }
   if (!isAccepted(verdict)) {
     ++counts_.rejected;
     return;
   }
   counts_.gaps += verdict == ImuVerdict::kAfterGap ? 1 : 0;
-  if (!initial_) {
-    initializer_.push(sample);
-    if (initializer_.missesFixes()) {
-      health_.note("gps/fix silent", sample.stamp);
-    }
-    tryToStart();
-  } else {
-    initializer_.watch(sample);
+  parts_->starter.push(sample);
+  takeNews();
+  if (!initial_ && initializer().missesFixes()) {
+    health_.note("gps/fix silent", sample.stamp);
   }
-  if (!initializer_.complaint().empty()) {
-    health_.note(initializer_.complaint(), sample.stamp);
+  if (!initializer().complaint().empty()) {
+    health_.note(initializer().complaint(), sample.stamp);
   }
 }
 
 void Pipeline::push(const WheelMotion& wheels) {
   ++counts_.wheels;
-  const bool taken = navigator_.push(wheels, sink_);
+  const bool taken = parts_->navigator.push(wheels, sink_);
   health_.noteWheels(wheels, taken);
   if (!taken) {
     ++counts_.rejected;
     return;
   }
-  if (!initial_) {
-    initializer_.push(wheels);
-    tryToStart();
-  } else {
-    initializer_.watch(wheels);
-  }
+  parts_->starter.push(wheels);
+  takeNews();
 }
 
 void Pipeline::push(const AntennaFix& fix) {
-  if (!initial_) {
-    initializer_.push(fix);
-    tryToStart();
-  }
-  if (setup_.filter.gnss.always() && std::holds_alternative<PositionFix>(fix)) {
-    navigator_.push(fix);
+  parts_->starter.push(fix);
+  takeNews();
+  if (uses_fixes_ && std::holds_alternative<PositionFix>(fix)) {
+    parts_->navigator.push(fix);
   }
 }
 
 void Pipeline::setTruth(const NavigationState& truth, bool has_attitude) {
-  if (!initial_) {
-    initializer_.setTruth(truth, has_attitude);
-    tryToStart();
-  }
+  parts_->starter.setTruth(truth, has_attitude);
+  takeNews();
 }
 
-void Pipeline::tryToStart() {
-  initial_ = initializer_.result();
-  if (initial_) {
-    navigator_.initialise(*initial_);
+void Pipeline::takeNews() {
+  if (const std::optional<Starter::News> news = parts_->starter.takeNews()) {
+    parts_->navigator.take(news->start);
+    initial_ = news->start.state;
   }
 }
 

@@ -14,30 +14,35 @@ void SampleMerger::push(const Sample& sample) {
   std::visit(
       [this](const auto& s) {
         using Kind = std::decay_t<decltype(s)>;
-        std::get<JumpFilter<Kind>>(filters_).push(s, [this](const Kind& passed) { sort(passed); });
+        if constexpr (std::is_same_v<Kind, ImuSample>) {
+          imu_.push(s, [this](const ImuSample& passed, Nanoseconds continuous) {
+            const Instant instant = sessionOf(passed);
+            Stream& stream = streams_.front();
+            stream.waiting.push_back({instant, passed});
+            newest_imu_ = stream.newest;
+            offsets_.resize(instant.session + 1, continuous - instant.stamp);
+          });
+        } else {
+          std::get<JumpFilter<Kind>>(filters_).push(s, [this](const Kind& passed) { insert(passed); });
+        }
       },
       sample);
 }
 
-void SampleMerger::sort(const ImuSample& sample) {
-  imu_sorter_.push(sample, [this](const ImuSample& passed) { insert(passed); });
+SampleMerger::Instant SampleMerger::sessionOf(const Sample& sample) {
+  Instant& newest = streams_[sample.index()].newest;
+  Instant instant{newest.session, stampOf(sample)};
+  if (instant.stamp <= newest.stamp - kRestartBackstep) {
+    newest = {instant.session + 1, instant.stamp};
+    instant = newest;
+  }
+  newest = std::max(newest, instant);
+  return instant;
 }
 
 void SampleMerger::insert(const Sample& sample) {
-  const bool is_imu = std::holds_alternative<ImuSample>(sample);
+  const Instant instant = sessionOf(sample);
   Stream& stream = streams_[sample.index()];
-  Instant instant{stream.newest.session, stampOf(sample)};
-  if (instant.stamp <= stream.newest.stamp - kRestartBackstep) {
-    stream.newest = {instant.session + 1, instant.stamp};
-    instant = stream.newest;
-  }
-  stream.newest = std::max(stream.newest, instant);
-  if (is_imu) {
-    stream.waiting.push_back({instant, sample});
-    newest_imu_ = stream.newest;
-    offsets_.resize(instant.session + 1, time_.add(instant.stamp) - instant.stamp);
-    return;
-  }
   const auto later = [](const Instant& before, const Entry& entry) { return before < entry.instant; };
   stream.waiting.insert(std::upper_bound(stream.waiting.begin(), stream.waiting.end(), instant, later),
                         {instant, sample});
@@ -88,7 +93,7 @@ void SampleMerger::flush(const Sink& sink) {
 }
 
 std::uint64_t SampleMerger::leftOut() const {
-  return std::apply([](const auto&... filter) { return (filter.leftOut() + ...); }, filters_);
+  return imu_.leftOut() + std::apply([](const auto&... filter) { return (filter.leftOut() + ...); }, filters_);
 }
 
 }  // namespace slipnav

@@ -2,7 +2,7 @@
 /// Merges the samples of several sensors in order of stamp, whatever the order of arrival.
 ///
 /// A sample is released once the IMU has advanced by the wait since; anything later is out of order, and
-/// rejected by the receiver. IMU samples are sorted separately before that (ImuSorter). Where the stamps of a sensor
+/// rejected by the receiver. IMU samples are sorted separately before that (ImuSequence). Where the stamps of a sensor
 /// go back by a second or more, later samples belong after everything before the corresponding step of all sensors;
 /// unless the clock has restarted, time continues (ContinuousTime). Single samples with a wrong stamp are dropped
 /// (JumpFilter).
@@ -16,9 +16,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/ordering/continuous_time.h"
-#include "core/ordering/imu_sorter.h"
-#include "core/ordering/jump_filter.h"
+#include "core/ordering/imu_sequence.h"
 #include "slipnav/core/ekf/engine/filter_data.h"
 #include "slipnav/core/ekf/models/gnss_fix.h"
 
@@ -59,13 +57,13 @@ class SampleMerger {
   /// @param steps how often the clock had gone back before, for whatever reason
   Nanoseconds offsetAfter(std::size_t steps) const;
   /// How the IMU clock was set back.
-  const ContinuousTime& time() const { return time_; }
+  const ContinuousTime& time() const { return imu_.time(); }
 
   /// Samples dropped for their stamps, over all sensors.
   std::uint64_t leftOut() const;
 
   /// IMU samples that were put back in order.
-  std::uint64_t overtaken() const { return imu_sorter_.overtaken(); }
+  std::uint64_t overtaken() const { return imu_.overtaken(); }
 
  private:
   /// Stamps are comparable within a session, sessions follow each other.
@@ -85,8 +83,7 @@ class SampleMerger {
     Instant newest;
   };
 
-  void sort(const ImuSample& sample);
-  void sort(const Sample& sample) { insert(sample); }
+  Instant sessionOf(const Sample& sample);
   void insert(const Sample& sample);
   void advance(const Instant& trusted, const Sink& sink);
   void release(Stream& stream, const Sink& sink);
@@ -94,9 +91,8 @@ class SampleMerger {
   bool isCertain(const Instant& instant, const Instant& trusted) const;
 
   Nanoseconds max_wait_;
-  std::tuple<JumpFilter<ImuSample>, JumpFilter<WheelMotion>, JumpFilter<PositionFix>, JumpFilter<VelocityFix>> filters_;
-  ImuSorter imu_sorter_;
-  ContinuousTime time_;
+  ImuSequence imu_;
+  std::tuple<JumpFilter<WheelMotion>, JumpFilter<PositionFix>, JumpFilter<VelocityFix>> filters_;
   std::vector<Nanoseconds> offsets_;  ///< by session
   std::array<Stream, std::variant_size_v<Sample>> streams_;
   Instant newest_imu_;

@@ -8,7 +8,7 @@
 
 #include "slipnav/core/base/ring_queue.h"
 #include "slipnav/core/base/sensors.h"
-#include "slipnav/core/ordering/cadence.h"
+#include "slipnav/core/ordering/sample_interval.h"
 
 namespace slipnav {
 
@@ -18,11 +18,11 @@ class ImuSorter {
   /// Passes to `sink` the samples that are due.
   template <class Sink>
   void push(const ImuSample& sample, const Sink& sink) {
-    if (sample.stamp <= cadence_.newest() - kRestartBackstep) {  // a source that has restarted
+    if (sample.stamp <= interval_.newest() - kRestartBackstep) {  // a source that has restarted
       release(0, sink);
-      cadence_.restart(sample.stamp);
+      interval_.restart(sample.stamp);
     }
-    if (sample.stamp <= cadence_.newest()) {
+    if (sample.stamp <= interval_.newest()) {
       sink(sample);
       return;
     }
@@ -36,7 +36,7 @@ class ImuSorter {
 
  private:
   bool isAfterHole(const ImuSample& sample) const {
-    return cadence_.isLearned() && cadence_.isHole(cadence_.newest(), sample.stamp);
+    return interval_.isLearned() && interval_.isHole(interval_.newest(), sample.stamp);
   }
 
   static constexpr std::size_t kPlaces = 2;
@@ -48,12 +48,12 @@ class ImuSorter {
     while (!waiting_.empty() && (waiting_.size() > places || !isAfterHole(waiting_.front()))) {
       const ImuSample sample = waiting_.front();
       waiting_.pop_front();
-      cadence_.add(sample.stamp);
+      interval_.add(sample.stamp);
       sink(sample);
     }
   }
 
-  Cadence cadence_{kLongestInterval_s};
+  SampleInterval interval_{kLongestInterval_s};
   RingQueue<ImuSample> waiting_;
   std::uint64_t overtaken_ = 0;
 };

@@ -75,7 +75,7 @@ bool ImuScreen::isInRange(const ImuSample& sample) const {
 void ImuScreen::reset() {
   force_ = Repeats();
   rate_ = Repeats();
-  newest_stamp_ = 0;
+  newest_ = ImuSample();
   usual_.reset();
 }
 
@@ -86,27 +86,37 @@ ImuScreen::Result ImuScreen::check(const ImuSample& sample) {
   if (!isInRange(sample)) {
     return {ImuVerdict::kOutOfRange};
   }
-  const bool is_first = newest_stamp_ == 0;
-  const Nanoseconds since = sample.stamp - newest_stamp_;
-  if (!is_first && since <= 0) {
-    return {since <= -kRestartBackstep ? ImuVerdict::kTimeWentBack : ImuVerdict::kNotNewer};
+  const bool restarts = newest_.stamp != 0 && sample.stamp <= newest_.stamp - kRestartBackstep;
+  if (restarts) {
+    reset();
+    ++restarts_;
+  }
+  const ImuSample before = newest_;
+  const bool is_first = before.stamp == 0;
+  if (!is_first && sample.stamp <= before.stamp) {
+    return {ImuVerdict::kNotNewer};
   }
   force_.add(sample.f_ib_b);
   rate_.add(sample.omega_ib_b);
   if (force_.isStuck(params_.stuck_samples) || rate_.isStuck(params_.stuck_samples)) {
     return {ImuVerdict::kStuck};
   }
-  newest_stamp_ = sample.stamp;
+  newest_ = sample;
   if (is_first) {
-    return {};
+    return {restarts ? ImuVerdict::kTimeWentBack : ImuVerdict::kAccepted};
   }
-  const double duration_s = toSeconds(since);
+  const double duration_s = toSeconds(sample.stamp - before.stamp);
   const double usual_s = usual_.value();
   usual_.add(duration_s);
-  if (usual_s > 0.0 && duration_s > params_.gap_factor * usual_s) {
-    return {ImuVerdict::kAfterGap, duration_s, duration_s - usual_s};
+  const bool after_gap = usual_s > 0.0 && duration_s > params_.gap_factor * usual_s;
+  const ImuVerdict verdict = after_gap ? ImuVerdict::kAfterGap : ImuVerdict::kAccepted;
+  const double gap_s = after_gap ? duration_s - usual_s : 0.0;
+  if (after_gap || instantaneous_) {
+    return {verdict,
+            {0.5 * (before.f_ib_b + sample.f_ib_b), 0.5 * (before.omega_ib_b + sample.omega_ib_b), duration_s},
+            gap_s};
   }
-  return {ImuVerdict::kAccepted, duration_s, 0.0};
+  return {verdict, {sample.f_ib_b, sample.omega_ib_b, duration_s}, gap_s};
 }
 
 }  // namespace slipnav

@@ -65,6 +65,7 @@ BagCalibration calibrateBag(const std::string& path, const Config& config, const
         continue;
       }
       drive.truth.push_back(toPositionFix(solution.fix));
+      drive.truth.back().stamp += fromSeconds(config.truth.stamp_offset_s);
     }
   }
   if (drive.truth.empty()) {

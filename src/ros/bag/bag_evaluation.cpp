@@ -9,6 +9,7 @@
 
 #include "core/navigation/sample_merger.h"
 #include "evaluation/offline_run.h"
+#include "evaluation/truth_lag.h"
 #include "io/rtklib_pos.h"
 #include "ros/messages/conversions.h"
 #include "ros/runtime/child_process.h"
@@ -28,10 +29,13 @@ class Stopwatch {
 };
 
 /// The rows of an RTKLIB file that are solutions; the others are counted.
-void addTruthFrom(const std::string& path, Nanoseconds begin, OfflineRun& run, BagEvaluation& evaluation) {
+void addTruthFrom(const std::string& path, const BagReader& reader, OfflineRun& run, BagEvaluation& evaluation) {
+  const Nanoseconds begin = reader.begin();
   for (const RtklibSolution& solution : readRtklibPos(path)) {
     if (solution.solved()) {
-      run.addTruthFix(solution.fix);
+      GnssFix fix = solution.fix;
+      fix.stamp += fromSeconds(reader.config().truth.stamp_offset_s);
+      run.addTruthFix(fix);
     } else {
       Alarm& rows = evaluation.problems[path + " has rows " + solution.flaw + ": skipped"];
       rows.first = rows.last = begin;
@@ -98,6 +102,23 @@ void noteTruthLeftOut(BagEvaluation& evaluation) {
   }
 }
 
+/// The estimate, twice a second.
+PlanarTrack planarTrack(const EstimateTrack& estimates) {
+  PlanarTrack track;
+  for (const EstimateSample& estimate : estimates) {
+    if (track.empty() || estimate.stamp - track.back().stamp >= kSecond / 2) {
+      track.push_back({estimate.stamp, estimate.position_enu_m.x(), estimate.position_enu_m.y(), 0.0});
+    }
+  }
+  return track;
+}
+
+void noteTruthLag(BagEvaluation& evaluation) {
+  if (const std::optional<TruthLag> lag = truthLag(planarTrack(evaluation.report.estimates), evaluation.report.truth)) {
+    evaluation.problems["truth is " + describe(*lag)] = {evaluation.begin, evaluation.begin, 1};
+  }
+}
+
 /// Feeds a recording to a run in the order of the stamps.
 void feed(const BagReader& reader, bool with_truth, OfflineRun& run, BagEvaluation& evaluation) {
   HealthMonitor health(reader.config().navigation().filter);  // of what does not reach the pipeline
@@ -149,6 +170,7 @@ void finish(const OfflineRun& run, const TruthAlignment& alignment, BagEvaluatio
   }
   evaluation.report = run.finish(alignment);
   noteTruthLeftOut(evaluation);
+  noteTruthLag(evaluation);
   noteFindings(evaluation);
 }
 
@@ -183,7 +205,7 @@ BagEvaluation evaluateBag(const std::vector<std::string>& paths, const Config& c
     evaluation.odometry.add(std::move(message));
   });
   if (truth_from_file) {
-    addTruthFrom(truth, reader.begin(), run, evaluation);
+    addTruthFrom(truth, reader, run, evaluation);
   }
   feed(reader, !truth_from_file, run, evaluation);
   evaluation.begin = reader.begin();
@@ -202,6 +224,7 @@ RunReport withEstimates(const RunReport& report, const EstimateTrack& estimates,
   input.counters.wheel_samples = report.metrics.wheel_samples;
   input.counters.rejected_samples = report.metrics.rejected_samples;
   input.truth_left_out = report.metrics.truth_left_out;
+  input.largest_nis = largestNis(report.diagnostics.filter);
   input.stops = {report.metrics.stops_seen, report.metrics.stops_used};
   RunReport result;
   result.estimates = estimates;

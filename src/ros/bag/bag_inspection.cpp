@@ -227,9 +227,13 @@ void addRtklibFile(const std::string& path, Recording& recording) {
   FixRecord record;
   record.topic = path;
   for (const RtklibSolution& solution : readRtklibPos(path)) {
+    if (!solution.solved()) {
+      ++record.left_out[solution.flaw];
+      continue;
+    }
     RawFixSample sample;
     sample.time = {solution.fix.stamp, solution.fix.stamp};
-    sample.has_fix = sample.is_usable = sample.has_covariance = solution.solved();
+    sample.has_fix = sample.is_usable = sample.has_covariance = true;
     sample.fix = solution.fix;
     record.samples.push_back(sample);
   }

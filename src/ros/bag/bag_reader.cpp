@@ -11,6 +11,7 @@
 #include "core/ordering/stamp_watch.h"
 #include "ros/bag/bag_file.h"
 #include "ros/messages/conversions.h"
+#include "ros/messages/fix_input.h"
 #include "ros/messages/imu_input.h"
 #include "ros/messages/wheel_input.h"
 #include "ros/runtime/extrinsics.h"
@@ -153,15 +154,17 @@ struct BagReader::Parts {
 
   void dispatchTruth(const BagEntry& entry, const BagSink& sink) {
     if (bag.holds<sensor_msgs::NavSatFix>(entry)) {
-      if (const std::optional<GnssFix> fix = toGnssFix(bag.read<sensor_msgs::NavSatFix>(entry))) {
+      if (std::optional<GnssFix> fix = toGnssFix(bag.read<sensor_msgs::NavSatFix>(entry))) {
+        fix->stamp += fromSeconds(config.truth.stamp_offset_s);
         sink.truth_fix(*fix);
       }
       return;
     }
-    const std::optional<TruthSample> pose = bag.holds<nav_msgs::Odometry>(entry)
-                                                ? toTruthSample(bag.read<nav_msgs::Odometry>(entry))
-                                                : toTruthSample(bag.read<geometry_msgs::PoseStamped>(entry));
+    std::optional<TruthSample> pose = bag.holds<nav_msgs::Odometry>(entry)
+                                          ? toTruthSample(bag.read<nav_msgs::Odometry>(entry))
+                                          : toTruthSample(bag.read<geometry_msgs::PoseStamped>(entry));
     if (pose) {
+      pose->stamp += fromSeconds(config.truth.stamp_offset_s);
       sink.truth_pose(*pose);
     }
   }
@@ -199,14 +202,13 @@ struct BagReader::Parts {
     }
   }
 
-  void dispatchFix(const BagEntry& entry, StampWatch& stamps, const BagSink& sink) {
-    const auto message = bag.read<sensor_msgs::NavSatFix>(entry);
-    const std::string complaint = complaintOf(message, config.topics.gps_fix);
-    if (!complaint.empty()) {
-      sink.problem(complaint, entry.time);
-    } else if (std::optional<GnssFix> fix = toGnssFix(message)) {
-      fix->stamp += fromSeconds(config.initialization.fix_stamp_offset_s);
-      watch(entry, config.topics.gps_fix, fix->stamp, stamps, sink);
+  void dispatchFix(const BagEntry& entry, FixInput& fixes, StampWatch& stamps, const BagSink& sink) {
+    const std::optional<GnssFix> fix = fixes.take(bag.read<sensor_msgs::NavSatFix>(entry));
+    if (!fixes.problem().empty()) {
+      sink.problem(fixes.problem(), entry.time);
+    }
+    if (fix) {
+      watch(entry, fixes.topic(), fix->stamp, stamps, sink);
       sink.fix(*fix);
     }
   }
@@ -267,6 +269,7 @@ void BagReader::read(const BagSink& sink) const {
   const TopicNames& topics = parts_->config.topics;
   ImuInput imu(parts_->config);
   WheelInput wheels(parts_->config);
+  FixInput fixes(parts_->config);
   StampWatch stamps(topics.imu);
   bool start_wanted = parts_->config.initialization.source == "truth";
   for (const BagEntry& entry : parts_->bag.entries()) {
@@ -281,7 +284,7 @@ void BagReader::read(const BagSink& sink) const {
     } else if (topic == bare(topics.wheel_odometry) && wheels.wantsOdometry()) {
       parts_->dispatchWheels<nav_msgs::Odometry>(entry, wheels, stamps, sink);
     } else if (topic == bare(topics.gps_fix)) {
-      parts_->dispatchFix(entry, stamps, sink);
+      parts_->dispatchFix(entry, fixes, stamps, sink);
     } else if (topic == bare(topics.gps_velocity)) {
       if (auto fix = toVelocityFix(parts_->bag.read<geometry_msgs::TwistWithCovarianceStamped>(entry))) {
         fix->stamp += fromSeconds(parts_->config.initialization.fix_stamp_offset_s);
@@ -298,7 +301,9 @@ void BagReader::read(const BagSink& sink) const {
                            formatNumber(parts_->config.initialization.heading_std_deg) + " deg)",
                        entry.time);
         }
-        sink.truth_start(start->first, start->second);
+        NavigationState state = start->first;
+        state.stamp += fromSeconds(parts_->config.truth.stamp_offset_s);
+        sink.truth_start(state, start->second);
         start_wanted = false;
       }
     }

@@ -193,22 +193,22 @@ NavigationState toNavigationState(const nav_msgs::Odometry& message, const Local
   return state;
 }
 
-Placement toPlacement(const SetStateRequest& request, const LocalFrame& map, const NavigationState& present,
-                      const Vector3& lever_imu_to_base_b) {
-  Placement placement;
-  placement.position_std_m = request.position_std_m;
+PoseOverride toPoseOverride(const SetStateRequest& request, const LocalFrame& map, const NavigationState& present,
+                            const Vector3& lever_imu_to_base_b) {
+  PoseOverride pose;
+  pose.position_std_m = request.position_std_m;
   Vector3 euler = eulerFrom_q_b_to_n(present.q_b_to_n);
   if (request.has_heading != 0) {
     if (!(std::abs(request.heading_deg) <= kFullTurn_deg)) {
       throw std::invalid_argument("heading_deg must be -360 to 360");
     }
-    placement.heading_rad = euler.z() = degToRad(request.heading_deg);
-    placement.heading_std_rad = degToRad(request.heading_std_deg);
+    pose.heading_rad = euler.z() = degToRad(request.heading_deg);
+    pose.heading_std_rad = degToRad(request.heading_std_deg);
   }
   const Quaternion q_b_to_n = q_b_to_n_fromEuler(euler.x(), euler.y(), euler.z());
   const Vector3 lever_enu = map.C_n_to_enu(present.position) * (q_b_to_n * lever_imu_to_base_b);
-  placement.position = map.toGeodetic(toVector(request.position) - lever_enu);
-  return placement;
+  pose.position = map.toGeodetic(toVector(request.position) - lever_enu);
+  return pose;
 }
 
 void fill(const Output& output, const FrameNames& frames, nav_msgs::Odometry& message) {

@@ -67,8 +67,8 @@ NavigationState toNavigationState(const nav_msgs::Odometry& message, const Local
                                   const Vector3& imu_position_b);
 
 /// The requested pose of the IMU. @param map the frame of the request; @param present gives roll and pitch
-Placement toPlacement(const SetStateRequest& request, const LocalFrame& map, const NavigationState& present,
-                      const Vector3& lever_imu_to_base_b);
+PoseOverride toPoseOverride(const SetStateRequest& request, const LocalFrame& map, const NavigationState& present,
+                            const Vector3& lever_imu_to_base_b);
 
 /// Pose in `odom`, twist in base_link; covariances in the same axes.
 void fill(const Output& output, const FrameNames& frames, nav_msgs::Odometry& message);

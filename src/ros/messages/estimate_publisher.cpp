@@ -4,7 +4,7 @@
 
 #include "core/slip/vehicle_slip.h"
 #include "ros/messages/conversions.h"
-#include "ros/messages/internal_messages.h"
+#include "ros/messages/forecast_messages.h"
 #include "ros/runtime/internal_topics.h"
 
 namespace slipnav {

@@ -1,46 +1,41 @@
 #pragma once
-/// Satellite positions from messages to a filter that uses them while driving.
+/// Satellite positions from their topic.
 
 #include <sensor_msgs/NavSatFix.h>
 
-#include <deque>
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "config/config.h"
-#include "core/ordering/continuous_time.h"
-#include "core/ordering/jump_filter.h"
-#include "slipnav/core/ekf/models/gnss_fix.h"
+#include "ros/messages/conversions.h"
 
 namespace slipnav {
 
-/// Rejects invalid fixes and single wrong stamps, and keeps the newest: the start becomes known later than they arrive.
+/// Every listener decides alike.
 class FixInput {
  public:
-  explicit FixInput(const Config& config);
+  explicit FixInput(const Config& config)
+      : topic_(config.topics.gps_fix), stamp_offset_(fromSeconds(config.initialization.fix_stamp_offset_s)) {}
 
-  /// @param time of the IMU, whose clock may have been set back
-  /// @return the fixes that may be used now, in continuous time; usually one
-  std::vector<PositionFix> take(const sensor_msgs::NavSatFix& message, const ContinuousTime& time);
+  /// Nothing if the message has no usable fix; problem() says why if something is wrong with it.
+  std::optional<GnssFix> take(const sensor_msgs::NavSatFix& message) {
+    problem_ = complaintOf(message, topic_);
+    std::optional<GnssFix> fix = problem_.empty() ? toGnssFix(message) : std::nullopt;
+    if (fix) {
+      fix->stamp += stamp_offset_;
+    }
+    return fix;
+  }
 
-  /// What was wrong with the last message, otherwise "".
+  /// What was wrong with the last message in one line that names its topic, otherwise "".
   const std::string& problem() const { return problem_; }
-
-  /// Those needed by a filter that starts at `stamp`. Empty if all are from another time.
-  std::vector<PositionFix> after(Nanoseconds stamp) const;
-
-  /// IMU stamp from which a filter that knows the fixes until `known` no longer waits for more.
-  Nanoseconds decidedAt(Nanoseconds known) const;
+  const std::string& topic() const { return topic_; }
+  /// Added to the stamps of the receiver.
+  Nanoseconds stampOffset() const { return stamp_offset_; }
 
  private:
-  void keep(const PositionFix& fix);
-
   std::string topic_;
   Nanoseconds stamp_offset_;
-  Nanoseconds max_wait_;
-  JumpFilter<PositionFix> jumps_{kFixJump};
-  StepCount steps_;
-  std::deque<PositionFix> newest_;
   std::string problem_;
 };
 

@@ -12,23 +12,12 @@ namespace slipnav {
 
 namespace {
 
-template <class Array>
-void copyVector(const Vector3& v, Array& array) {
-  std::copy(v.data(), v.data() + 3, array.begin());
-}
-
-template <class Array>
-Vector3 vectorOf(const Array& array) {
-  return {array[0], array[1], array[2]};
-}
-
 static_assert(StartState::_covariance_type::static_size == kErrorStates * kErrorStates);
-using RowMajorCovariance = Eigen::Matrix<double, kErrorStates, kErrorStates, Eigen::RowMajor>;
 
 }  // namespace
 
 InertialState toMessage(const NavigationState& state) {
-  const auto& [stamp, q_b_to_n, v_eb_n, position, accel_bias_b, gyro_bias_b] = state;
+  const auto& [stamp, q_b_to_n, v_eb_n, position, accel_bias_b, gyro_bias_b, imu_offset_b] = state;
   InertialState message;
   message.stamp = toRosTime(stamp);
   message.q_b_to_n = {q_b_to_n.w(), q_b_to_n.x(), q_b_to_n.y(), q_b_to_n.z()};
@@ -38,6 +27,7 @@ InertialState toMessage(const NavigationState& state) {
   message.height_m = position.height_m;
   copyVector(accel_bias_b, message.accel_bias_b);
   copyVector(gyro_bias_b, message.gyro_bias_b);
+  copyVector(imu_offset_b, message.imu_offset_b);
   return message;
 }
 
@@ -49,14 +39,14 @@ NavigationState fromMessage(const InertialState& message) {
   state.position = {message.latitude_rad, message.longitude_rad, message.height_m};
   state.accel_bias_b = vectorOf(message.accel_bias_b);
   state.gyro_bias_b = vectorOf(message.gyro_bias_b);
+  state.imu_offset_b = vectorOf(message.imu_offset_b);
   return state;
 }
 
 InsInterval toMessage(const InsStep& step) {
-  const auto& [sequence, epoch, start, state, f_ib_b, omega_ib_b, gap_s] = step;
+  const auto& [epoch, start, state, f_ib_b, omega_ib_b, gap_s] = step;
   static_cast<void>(epoch);  // of the whole batch
   InsInterval message;
-  message.sequence = sequence;
   message.start = toRosTime(start);
   message.state = toMessage(state);
   copyVector(f_ib_b, message.f_ib_b);
@@ -67,7 +57,6 @@ InsInterval toMessage(const InsStep& step) {
 
 InsStep fromMessage(const InsInterval& message, std::uint32_t epoch) {
   InsStep step;
-  step.sequence = message.sequence;
   step.epoch = epoch;
   step.start = toNanoseconds(message.start);
   step.state = fromMessage(message.state);
@@ -92,81 +81,56 @@ ContinuousTime timeOf(const InsSteps& message) {
   return ContinuousTime(std::move(steps));
 }
 
-void fill(const InitialState& initial, StartState& message) {
-  const auto& [nav, vehicle, P, origin, tremor_variance] = initial;
+void fill(const Start& start, StartState& message) {
+  message.start = start.number;
+  message.session = start.session;
+  message.known = start.state.has_value();
+  if (!message.known) {
+    return;
+  }
+  const auto& [nav, vehicle, P, origin, standstill_variance] = *start.state;
   const auto& [wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad] = vehicle;
-  message.known = true;
   message.state = toMessage(nav);
   message.vehicle = {wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad};
   Eigen::Map<RowMajorCovariance>(message.covariance.data()) = P;
-  message.tremor_variance = tremor_variance;
+  message.standstill_variance = standstill_variance;
   message.origin_latitude_rad = origin.latitude_rad;
   message.origin_longitude_rad = origin.longitude_rad;
   message.origin_height_m = origin.height_m;
 }
 
-InitialState fromMessage(const StartState& message) {
-  InitialState initial;
+Start fromMessage(const StartState& message) {
+  Start start{message.start, message.session, std::nullopt};
+  if (!message.known) {
+    return start;
+  }
+  InitialState& initial = start.state.emplace();
   initial.nav = fromMessage(message.state);
   initial.vehicle = {message.vehicle[0], message.vehicle[1], message.vehicle[2],
                      message.vehicle[3], message.vehicle[4], message.vehicle[5]};
   initial.P = Eigen::Map<const RowMajorCovariance>(message.covariance.data());
-  initial.tremor_variance = message.tremor_variance;
+  initial.standstill_variance = message.standstill_variance;
   initial.origin = {message.origin_latitude_rad, message.origin_longitude_rad, message.origin_height_m};
-  return initial;
+  return start;
 }
 
-void fill(const Estimate& estimate, const ErrorCovariance& P, ForecastInput& message) {
-  const auto& [wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad] = estimate.vehicle;
-  message.state = toMessage(estimate.nav);
-  message.vehicle = {wheel_scale, slow_slip, fast_slip, side_slip, mount_pitch_rad, mount_yaw_rad};
-  Eigen::Map<RowMajorCovariance>(message.covariance.data()) = P;
-  const auto factors = estimate.noise_factors.toArray();
-  std::copy(factors.begin(), factors.end(), message.noise_factors.begin());
-  copyVector(estimate.f_ib_b, message.f_ib_b);
-  copyVector(estimate.omega_ib_b, message.omega_ib_b);
-  message.stationary = estimate.stationary;
-  message.wheel_speed_used = estimate.wheel_speed_used;
-  message.wheel_stamp = toRosTime(estimate.wheels.stamp);
-  message.wheel_speed_mps = estimate.wheels.motion.forward_mps;
-  message.duration_s = estimate.motion.duration_s;
-  copyVector(estimate.motion.v_eb_b, message.v_eb_b);
+void fill(const Reply& reply, FilterCorrection& message) {
+  message.start = reply.start;
+  message.corrects = reply.correction.has_value();
+  if (reply.correction) {
+    const auto& [epoch, state] = *reply.correction;
+    message.epoch = epoch;
+    message.state = toMessage(state);
+  }
+  message.run_until = toRosTime(reply.run_until);
 }
 
-Estimate estimateOf(const ForecastInput& message) {
-  Estimate estimate;
-  estimate.nav = fromMessage(message.state);
-  estimate.vehicle = {message.vehicle[0], message.vehicle[1], message.vehicle[2],
-                      message.vehicle[3], message.vehicle[4], message.vehicle[5]};
-  std::array<double, NoiseFactors::kCount> factors = {};
-  std::copy(message.noise_factors.begin(), message.noise_factors.end(), factors.begin());
-  estimate.noise_factors = NoiseFactors::fromArray(factors);
-  estimate.f_ib_b = vectorOf(message.f_ib_b);
-  estimate.omega_ib_b = vectorOf(message.omega_ib_b);
-  estimate.stationary = message.stationary;
-  estimate.has_wheels = true;
-  estimate.wheel_speed_used = message.wheel_speed_used;
-  estimate.wheels.stamp = toNanoseconds(message.wheel_stamp);
-  estimate.wheels.motion.forward_mps = message.wheel_speed_mps;
-  estimate.motion.duration_s = message.duration_s;
-  estimate.motion.v_eb_b = vectorOf(message.v_eb_b);
-  return estimate;
-}
-
-ErrorCovariance covarianceOf(const ForecastInput& message) {
-  return Eigen::Map<const RowMajorCovariance>(message.covariance.data());
-}
-
-void fill(const Correction& correction, FilterCorrection& message) {
-  const auto& [sequence, epoch, state] = correction;
-  message.corrects = true;
-  message.sequence = sequence;
-  message.epoch = epoch;
-  message.state = toMessage(state);
-}
-
-Correction fromMessage(const FilterCorrection& message) {
-  return {message.sequence, message.epoch, fromMessage(message.state)};
+Reply fromMessage(const FilterCorrection& message) {
+  Reply reply{message.start, std::nullopt, toNanoseconds(message.run_until)};
+  if (message.corrects) {
+    reply.correction = Correction{message.epoch, fromMessage(message.state)};
+  }
+  return reply;
 }
 
 }  // namespace slipnav

@@ -2,17 +2,30 @@
 /// Between the core's own structs and the messages that Ins, Filter and Initializer exchange. Lossless.
 
 #include <slipnav/FilterCorrection.h>
-#include <slipnav/ForecastInput.h>
 #include <slipnav/InertialState.h>
 #include <slipnav/InsInterval.h>
 #include <slipnav/InsSteps.h>
 #include <slipnav/StartState.h>
 
+#include <algorithm>
+
+#include "core/navigation/exchange.h"
 #include "core/ordering/continuous_time.h"
-#include "slipnav/core/ekf/engine/filter_data.h"
-#include "slipnav/core/ins/ins_engine.h"
 
 namespace slipnav {
+
+/// The order of a covariance in messages.
+using RowMajorCovariance = Eigen::Matrix<double, kErrorStates, kErrorStates, Eigen::RowMajor>;
+
+template <class Array>
+void copyVector(const Vector3& v, Array& array) {
+  std::copy(v.data(), v.data() + 3, array.begin());
+}
+
+template <class Array>
+Vector3 vectorOf(const Array& array) {
+  return {array[0], array[1], array[2]};
+}
 
 InertialState toMessage(const NavigationState& state);
 NavigationState fromMessage(const InertialState& message);
@@ -25,19 +38,10 @@ InsStep fromMessage(const InsInterval& message, std::uint32_t epoch);
 void fill(const ContinuousTime& time, InsSteps& message);
 ContinuousTime timeOf(const InsSteps& message);
 
-/// Fills everything but the counts; `known` is set.
-void fill(const InitialState& initial, StartState& message);
-InitialState fromMessage(const StartState& message);
+void fill(const Start& start, StartState& message);
+Start fromMessage(const StartState& message);
 
-/// The parts of an estimate and its covariance that a Forecaster uses.
-void fill(const Estimate& estimate, const ErrorCovariance& P, ForecastInput& message);
-/// The parts of an estimate that were sent; the others keep their defaults.
-Estimate estimateOf(const ForecastInput& message);
-ErrorCovariance covarianceOf(const ForecastInput& message);
-
-/// Fills everything but the start and the look-ahead.
-void fill(const Correction& correction, FilterCorrection& message);
-/// For a message that corrects.
-Correction fromMessage(const FilterCorrection& message);
+void fill(const Reply& reply, FilterCorrection& message);
+Reply fromMessage(const FilterCorrection& message);
 
 }  // namespace slipnav

@@ -1,7 +1,5 @@
 #include "ros/messages/legacy_messages.h"
 
-#include <GeographicLib/Geocentric.hpp>
-
 #include <cmath>
 
 #include "slipnav/core/base/rotation.h"
@@ -22,6 +20,21 @@ Matrix3 attitudeOf(const NavState& state) {
 
 Vector3 velocityOf(const NavState& state) {
   return enuToNed() * Vector3(state.velocity.x, state.velocity.y, state.velocity.z);
+}
+
+/// Planet-fixed coordinates [m], Groves (2.112). In more digits than a double has: one of these coordinates on Earth
+/// has steps of 1e-9 m, and in doubles the result would be off by three of them.
+Vector3 ecefFrom(const NavState& state, long double equatorial_radius_m, long double flattening) {
+  const long double rad_per_deg = std::acos(-1.0L) / 180.0L;
+  const long double latitude_rad = state.latitude_deg * rad_per_deg;
+  const long double longitude_rad = state.longitude_deg * rad_per_deg;
+  const long double e2 = flattening * (2.0L - flattening);
+  const long double sine = std::sin(latitude_rad);
+  const long double transverse_m = equatorial_radius_m / std::sqrt(1.0L - e2 * sine * sine);
+  const long double to_axis_m = (transverse_m + state.height_m) * std::cos(latitude_rad);
+  return {static_cast<double>(to_axis_m * std::cos(longitude_rad)),
+          static_cast<double>(to_axis_m * std::sin(longitude_rad)),
+          static_cast<double>(((1.0L - e2) * transverse_m + state.height_m) * sine)};
 }
 
 }  // namespace
@@ -52,10 +65,7 @@ geometry_msgs::PointStamped LegacyMessages::llh(const NavState& state) const {
 }
 
 geometry_msgs::PointStamped LegacyMessages::ecef(const NavState& state) const {
-  Vector3 ecef_m;
-  GeographicLib::Geocentric(equatorial_radius_m_, flattening_)
-      .Forward(state.latitude_deg, state.longitude_deg, state.height_m, ecef_m.x(), ecef_m.y(), ecef_m.z());
-  return point(state.header, ecef_m);
+  return point(state.header, ecefFrom(state, equatorial_radius_m_, flattening_));
 }
 
 geometry_msgs::PointStamped LegacyMessages::enu(const NavState& state) const {

@@ -10,6 +10,7 @@ WheelInput::WheelInput(const Config& config)
     : geometry_(config.wheelGeometry()),
       decoder_(config.wheels, config.wheel_monitor.max_speed_mps),
       source_(config.wheel.source),
+      odometry_scale_(config.wheel.odometry_scale),
       stamp_delay_(fromSeconds(config.wheel.stamp_delay_s)),
       joint_topic_(config.topics.joint_states),
       odometry_topic_(config.topics.wheel_odometry) {}
@@ -59,7 +60,8 @@ std::optional<WheelMotion> WheelInput::take(const nav_msgs::Odometry& message) {
     problem_ = odometry_topic_ + " has a forward speed that is not a finite number";
     return std::nullopt;
   }
-  return atEndOfInterval(toWheelMotion(SpeedSample{toNanoseconds(message.header.stamp), forward_mps}));
+  return atEndOfInterval(
+      toWheelMotion(SpeedSample{toNanoseconds(message.header.stamp), odometry_scale_ * forward_mps}));
 }
 
 }  // namespace slipnav

@@ -43,6 +43,7 @@ class WheelInput {
   WheelGeometry geometry_;
   WheelDecoder decoder_;
   std::string source_;
+  double odometry_scale_;
   Nanoseconds stamp_delay_;
   std::string joint_topic_;
   std::string odometry_topic_;

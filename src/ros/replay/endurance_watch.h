@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "evaluation/endurance.h"
-#include "ros/replay/drive_judge.h"
+#include "ros/replay/drive_evaluator.h"
 #include "ros/replay/latency_meter.h"
 #include "slipnav/core/earth/local_frame.h"
 
 namespace slipnav {
 
 /// Keeps a row for every minute of the drive, and nothing else.
-class EnduranceWatch : public DriveJudge {
+class EnduranceWatch : public DriveEvaluator {
  public:
   /// @param hours from the first estimate on, after which it has seen enough
   /// @param folder for soak.csv, which grows with the drive, and soak.txt, the verdict

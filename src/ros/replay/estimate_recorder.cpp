@@ -7,35 +7,37 @@
 namespace slipnav {
 
 template <class Value>
-void EstimateRecorder::insert(Nanoseconds stamp, const Value& value, std::map<Nanoseconds, Value>& values) {
-  if (!values.empty() && stamp <= values.rbegin()->first - kRestartBackstep) {
+void EstimateRecorder::Stream<Value>::insert(Nanoseconds stamp, const Value& value) {
+  const Nanoseconds continuous = time.add(stamp);
+  if (!values.empty() && continuous <= values.rbegin()->first - kRestartBackstep) {
     values.clear();
   }
-  values[stamp] = value;
+  values[continuous] = value;
 }
 
 void EstimateRecorder::add(const nav_msgs::Odometry& message) {
   const EstimateSample sample = toEstimateSample(message);
-  insert(sample.stamp, sample, estimates_);
+  estimates_.insert(sample.stamp, sample);
 }
 
 void EstimateRecorder::add(const NavState& message) {
-  insert(toNanoseconds(message.header.stamp), message.status == NavState::STATUS_STATIONARY, stationary_);
+  stationary_.insert(toNanoseconds(message.header.stamp), message.status == NavState::STATUS_STATIONARY);
 }
 
 void EstimateRecorder::add(const Slip& message) {
-  insert(toNanoseconds(message.header.stamp), message.mean_ratio, slip_);
+  slip_.insert(toNanoseconds(message.header.stamp), message.mean_ratio);
 }
 
 EstimateTrack EstimateRecorder::track() const {
   EstimateTrack track;
-  track.reserve(estimates_.size());
-  for (const auto& [stamp, estimate] : estimates_) {
+  track.reserve(estimates_.values.size());
+  for (const auto& [stamp, estimate] : estimates_.values) {
     track.push_back(estimate);
-    const auto stationary = stationary_.find(stamp);
-    track.back().stationary = stationary != stationary_.end() && stationary->second;
-    const auto after = slip_.upper_bound(stamp);
-    if (after != slip_.begin() && !std::isnan(std::prev(after)->second)) {
+    track.back().stamp = stamp;
+    const auto stationary = stationary_.values.find(stamp);
+    track.back().stationary = stationary != stationary_.values.end() && stationary->second;
+    const auto after = slip_.values.upper_bound(stamp);
+    if (after != slip_.values.begin() && !std::isnan(std::prev(after)->second)) {
       track.back().slip = std::prev(after)->second;
     }
   }

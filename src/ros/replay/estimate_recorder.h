@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/ordering/continuous_time.h"
 #include "evaluation/estimate.h"
 
 namespace slipnav {
@@ -15,28 +16,35 @@ namespace slipnav {
 /// Joins odometry, nav_state and slip by their stamps.
 class EstimateRecorder {
  public:
-  /// A message older than the newest by a second or more starts a new track.
+  /// Stamps go on where the clock is set back, as in the estimator; a recording that is played again starts a new
+  /// track.
   void add(const nav_msgs::Odometry& message);
   void add(const NavState& message);
   void add(const Slip& message);
 
-  std::size_t size() const { return estimates_.size(); }
+  std::size_t size() const { return estimates_.values.size(); }
   /// Stamp up to which both odometry and nav_state have arrived; each takes its own route.
   Nanoseconds newestStamp() const {
-    return estimates_.empty() || stationary_.empty()
+    return estimates_.values.empty() || stationary_.values.empty()
                ? 0
-               : std::min(estimates_.rbegin()->first, stationary_.rbegin()->first);
+               : std::min(estimates_.values.rbegin()->first, stationary_.values.rbegin()->first);
   }
 
   EstimateTrack track() const;
 
  private:
+  /// One kind of message, by stamps in continuous time.
   template <class Value>
-  static void insert(Nanoseconds stamp, const Value& value, std::map<Nanoseconds, Value>& values);
+  struct Stream {
+    void insert(Nanoseconds stamp, const Value& value);
 
-  std::map<Nanoseconds, EstimateSample> estimates_;
-  std::map<Nanoseconds, bool> stationary_;
-  std::map<Nanoseconds, double> slip_;  ///< NaN where undefined
+    ContinuousTime time;
+    std::map<Nanoseconds, Value> values;
+  };
+
+  Stream<EstimateSample> estimates_;
+  Stream<bool> stationary_;
+  Stream<double> slip_;  ///< NaN where undefined
 };
 
 }  // namespace slipnav

@@ -14,6 +14,7 @@
 #include "config/sensor_topics.h"
 #include "core/base/text.h"
 #include "ros/bag/bag_file.h"
+#include "ros/messages/conversions.h"
 #include "ros/runtime/child_process.h"
 #include "ros/runtime/internal_topics.h"
 
@@ -161,6 +162,10 @@ void ReplaySession::waitForNodelets() {
 }
 
 void ReplaySession::play(const ReplayOptions& options, Nanoseconds last_stamp) {
+  play(options, [this, last_stamp] { return newestStamp() >= last_stamp; });
+}
+
+void ReplaySession::play(const ReplayOptions& options, const std::function<bool()>& done) {
   recorder_ = EstimateRecorder();  // else the previous track would pass for this one until its first estimate arrives
   odometry_ = OdometryLog();
   ros::Time clock;
@@ -168,18 +173,20 @@ void ReplaySession::play(const ReplayOptions& options, Nanoseconds last_stamp) {
       [&clock](const rosgraph_msgs::Clock::ConstPtr& message) { clock = message->clock; };
   const ros::Subscriber listener = node_.subscribe<rosgraph_msgs::Clock>("/clock", 1, note);
   ChildProcess player(playCommand(options, wantedTopics(topics_)));
-  const auto has_come = [this, &player, last_stamp] {
+  const auto has_ended = [&player, &done] {
     if (player.poll()) {
       throw std::runtime_error("rosbag play has failed");
     }
-    return newestStamp() >= last_stamp;
+    return done();
   };
+  const ros::Time end = toRosTime(BagFile(options.bag).entries().back().time);
   std::size_t estimates = 0;
   ros::Time clock_before;
   do {
     estimates = recorder_.size();
     clock_before = clock;
-  } while (!spinUntil(has_come, kSilence_s) && (recorder_.size() != estimates || clock != clock_before));
+  } while (!spinUntil(has_ended, kSilence_s) &&
+           (recorder_.size() != estimates || (clock != clock_before && clock < end)));
   // The slip of the last wheel sample was published before, but takes its own route.
   spinUntil([] { return false; }, kStragglers_s);
 }

@@ -3,6 +3,7 @@
 
 #include <ros/ros.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,9 +36,13 @@ class ReplaySession {
   /// Plays with rosbag play, with its clock, all topics that have subscribers, less those that the nodelets publish
   /// themselves, commands and moving transforms, until the estimate of `last_stamp`
   /// has arrived: the player is kept alive until then, since its queues would end with it. No message is lost: playing
-  /// starts once everybody is connected, and queues hold whatever comes. If nothing comes for a minute, neither an
-  /// estimate nor the clock, that also ends it. Throws std::runtime_error if rosbag play fails or ROS shuts down.
+  /// starts once everybody is connected, and queues hold whatever comes. A minute without an estimate also ends it,
+  /// once the clock stands still or has passed the end of the recording. Throws std::runtime_error if rosbag play fails
+  /// or ROS shuts down.
   void play(const ReplayOptions& options, Nanoseconds last_stamp);
+
+  /// The same until `done`, which is asked after each batch of messages.
+  void play(const ReplayOptions& options, const std::function<bool()>& done);
 
   const EstimateRecorder& recorder() const { return recorder_; }
   const OdometryLog& odometry() const { return odometry_; }

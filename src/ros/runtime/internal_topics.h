@@ -21,6 +21,8 @@ inline constexpr const char* kForecastProgressTopic = "forecast_progress";
 inline constexpr const char* kTuningTopic = "tuning";
 /// Overlay to the rviz panel: std_msgs/String, distance, error and 3σ in one line.
 inline constexpr const char* kFiguresTopic = "figures";
+/// Replay to rviz, latched: visualization_msgs/MarkerArray, other systems' tracks on the same drive.
+inline constexpr const char* kComparedTopic = "compared";
 /// Overlay to robot_state_publisher: the wheels of the model in rviz.
 inline constexpr const char* kModelJointsTopic = "model/joint_states";
 

@@ -11,8 +11,9 @@ namespace {
 
 constexpr double kLifetime_s = 2.0;          // of values that come with every estimate
 constexpr double kForecastLifetime_s = 6.0;  // of values that come once a second while driving
-constexpr double kStatusLifetime_s = 4.0;    // of diagnostics, which come once a second
+constexpr double kStatusLifetime_s = 4.0;    // of diagnostics, which come twice a second
 constexpr double kHistory_s = 300.0;
+constexpr const char* kInitializer = "initializer";
 
 std::string formatted(const char* format, double value) {
   char text[64];
@@ -24,6 +25,9 @@ template <class Heard>
 bool isFresh(const std::optional<Heard>& heard, double now_s, double lifetime_s) {
   return heard && now_s - heard->time_s <= lifetime_s;
 }
+
+/// The nodelet of a status.
+std::string nodeletOf(const std::string& status) { return status.substr(status.rfind('/') + 1); }
 
 std::string stateWords(const StopStatus& stop) {
   switch (stop.state) {
@@ -102,7 +106,7 @@ void OperatorView::addForecast(double now_s, OperatorPicture& picture) const {
 
 void OperatorView::addAlarms(double now_s, OperatorPicture& picture) const {
   for (const auto& [name, heard] : statuses_) {
-    const std::string who = name.substr(name.rfind('/') + 1);
+    const std::string who = nodeletOf(name);
     if (who == kFitToDrive) {
       continue;  // repeats the same
     }
@@ -117,13 +121,19 @@ void OperatorView::addAlarms(double now_s, OperatorPicture& picture) const {
   });
 }
 
+bool OperatorView::isStarting(double now_s) const {
+  const bool has_ended = std::any_of(statuses_.begin(), statuses_.end(), [now_s](const auto& status) {
+    return nodeletOf(status.first) == kInitializer && now_s - status.second.time_s > kStatusLifetime_s;
+  });
+  return start_ && start_->message.done == 0 && !has_ended;
+}
+
 OperatorPicture OperatorView::picture(double now_s) const {
   OperatorPicture picture;
   if (isFresh(stop_, now_s, kLifetime_s)) {
     describe(stop_->message, picture);
   }
-  const bool starting = start_ && start_->message.done == 0;
-  if (starting && !picture.emergency_stop) {
+  if (isStarting(now_s) && !picture.emergency_stop) {
     picture.state = "START";
     picture.mood = Mood::kStart;
     picture.countdown.clear();

@@ -41,7 +41,7 @@ struct OperatorPicture {
   std::vector<OperatorAlarm> alarms;               ///< worst first
   bool emergency_stop = false;
   bool overridden = false;
-  int mode = 0;  ///< as in slipnav/StopStatus
+  std::optional<int> mode;  ///< as in slipnav/StopStatus; the supervisor says nothing before the first estimate
 
   bool isStale() const { return mood == Mood::kStale; }
 };
@@ -65,6 +65,8 @@ class OperatorView {
     double time_s = -1e9;
   };
 
+  /// Whether a start is still being looked for; not if its nodelet has ended meanwhile.
+  bool isStarting(double now_s) const;
   void describe(const StopStatus& stop, OperatorPicture& picture) const;
   void addForecast(double now_s, OperatorPicture& picture) const;
   void addAlarms(double now_s, OperatorPicture& picture) const;

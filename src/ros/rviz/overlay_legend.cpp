@@ -22,7 +22,7 @@ double widthOf(const std::string& words, double letter_height_m) {
   return kLetterWidth * letter_height_m * static_cast<double>(words.size());
 }
 
-std::string errorLine(const DrivePicture& picture) {
+std::string errorLine(const DriveView& picture) {
   const std::optional<double> error_m = picture.horizontalError();
   if (!error_m) {
     return "";
@@ -64,12 +64,12 @@ std::string formatted(double value, int decimals) {
   return out.str();
 }
 
-std::string figuresOf(const DrivePicture& picture) {
+std::string figuresOf(const DriveView& picture) {
   return "distance " + formatted(picture.distance(), 1) + " m" + errorLine(picture) + "    3σ " +
          formatted(picture.horizontalBound(), 2) + " m";
 }
 
-void drawLegend(const OverlayParams& params, MarkerSketch& sketch) {
+void drawLegend(const OverlayParams& params, MarkerBuilder& sketch) {
   Marker lines;
   int row = 0;
   for (const Entry& entry : legendEntries(params)) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "ros/rviz/marker_sketch.h"
+#include "ros/rviz/marker_builder.h"
 #include "ros/rviz/overlay_markers.h"
 
 namespace slipnav {
@@ -12,6 +12,6 @@ namespace slipnav {
 std::string formatted(double value, int decimals);
 
 /// What the colors mean; placed relative to the rover.
-void drawLegend(const OverlayParams& params, MarkerSketch& sketch);
+void drawLegend(const OverlayParams& params, MarkerBuilder& sketch);
 
 }  // namespace slipnav

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "ros/messages/conversions.h"
-#include "ros/rviz/marker_sketch.h"
+#include "ros/rviz/marker_builder.h"
 #include "ros/rviz/overlay_legend.h"
 
 namespace slipnav {
@@ -35,7 +35,7 @@ std::vector<Vector3> raised(std::vector<Vector3> points, double by_m) {
   return points;
 }
 
-void drawSlip(const DrivePicture& picture, const OverlayParams& params, MarkerSketch& sketch) {
+void drawSlip(const DriveView& picture, const OverlayParams& params, MarkerBuilder& sketch) {
   const std::vector<TrackPoint>& points = picture.track().points();
   if (points.size() < 2) {
     return;
@@ -49,7 +49,7 @@ void drawSlip(const DrivePicture& picture, const OverlayParams& params, MarkerSk
   }
 }
 
-void drawError(const DrivePicture& picture, MarkerSketch& sketch) {
+void drawError(const DriveView& picture, MarkerBuilder& sketch) {
   const EstimateSample& newest = *picture.newest();
   sketch.line("ellipse", 0, errorEllipse(newest.position_enu_m, newest.covariance_enu_m2, kSigmas), kThinLine_m,
               kEstimateColour);
@@ -66,7 +66,7 @@ std::string stopWords(const LoggedStop& stop) {
          formatted(before_m, 2) + " > " + formatted(after_m, 2) + " m";
 }
 
-void drawStops(const DrivePicture& picture, const OverlayParams& params, MarkerSketch& sketch) {
+void drawStops(const DriveView& picture, const OverlayParams& params, MarkerBuilder& sketch) {
   constexpr double kTextRatio = 0.75;  // smaller than the legend
   for (const LoggedStop& stop : picture.stops().stops()) {
     sketch.disc("stops", stop.number, raised(stop.position_enu_m, kStopHeight_m), kStopDiameter_m,
@@ -86,7 +86,7 @@ void addTriangle(const FanSection& a, const FanSection& b, const FanSection& c, 
   }
 }
 
-void drawFanSurface(const std::vector<FanSection>& sections, double threshold_m, MarkerSketch& sketch) {
+void drawFanSurface(const std::vector<FanSection>& sections, double threshold_m, MarkerBuilder& sketch) {
   Marker& fan = sketch.add("forecast", 0, Marker::TRIANGLE_LIST, 0.0, withAlpha(kSafeColour, kFanAlpha));
   for (std::size_t i = 1; i < sections.size(); ++i) {
     const FanSection& a = sections[i - 1];
@@ -97,7 +97,7 @@ void drawFanSurface(const std::vector<FanSection>& sections, double threshold_m,
 }
 
 /// Where the bound is forecast to pass the threshold.
-void drawStopAhead(const Course& course, const ErrorForecast& forecast, MarkerSketch& sketch) {
+void drawStopAhead(const Course& course, const ErrorForecast& forecast, MarkerBuilder& sketch) {
   if (!std::isfinite(forecast.time_to_stop_s)) {
     return;
   }
@@ -120,7 +120,7 @@ bool isCurrent(const ErrorForecast* forecast, const EstimateSample& newest) {
          std::abs(toSeconds(newest.stamp - toNanoseconds(forecast->header.stamp))) < kForecastLifetime_s;
 }
 
-void drawForecast(const DrivePicture& picture, const ErrorForecast* forecast, MarkerSketch& sketch) {
+void drawForecast(const DriveView& picture, const ErrorForecast* forecast, MarkerBuilder& sketch) {
   if (!isCurrent(forecast, *picture.newest()) || !picture.course().known()) {
     return;
   }
@@ -157,10 +157,10 @@ nav_msgs::Path toPath(const DisplayTrack& track, const std::string& frame_id) {
   return path;
 }
 
-visualization_msgs::MarkerArray OverlayMarkers::make(const DrivePicture& picture, const OverlayMessages& messages) {
+visualization_msgs::MarkerArray OverlayMarkers::make(const DriveView& picture, const OverlayMessages& messages) {
   const Nanoseconds stamp = picture.newest() ? picture.newest()->stamp : 0;
-  MarkerSketch sketch(frame_id_, stamp, false);
-  MarkerSketch beside_rover(params_.frame, stamp, true);
+  MarkerBuilder sketch(frame_id_, stamp, false);
+  MarkerBuilder beside_rover(params_.frame, stamp, true);
   if (picture.newest()) {
     drawSlip(picture, params_, sketch);
     drawStops(picture, params_, sketch);

@@ -1,5 +1,5 @@
 #pragma once
-/// The drawing of a drive as rviz messages. See doc/visualisation.md for their appearance.
+/// The drawing of a drive as rviz messages. See doc/visualization.md for their appearance.
 
 #include <nav_msgs/Path.h>
 #include <slipnav/ErrorForecast.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "overlay/drive_picture.h"
+#include "overlay/drive_view.h"
 
 namespace slipnav {
 
@@ -20,7 +20,7 @@ struct OverlayMessages {
 };
 
 /// Distance, error against the truth if there is one, and 3σ, in one line.
-std::string figuresOf(const DrivePicture& picture);
+std::string figuresOf(const DriveView& picture);
 
 /// @param frame_id the map frame
 nav_msgs::Path toPath(const DisplayTrack& track, const std::string& frame_id);
@@ -31,7 +31,7 @@ class OverlayMarkers {
   OverlayMarkers(const OverlayParams& params, std::string frame_id) : params_(params), frame_id_(std::move(frame_id)) {}
 
   /// Current markers, and deletions of those that no longer exist.
-  visualization_msgs::MarkerArray make(const DrivePicture& picture, const OverlayMessages& messages);
+  visualization_msgs::MarkerArray make(const DriveView& picture, const OverlayMessages& messages);
 
  private:
   using Key = std::pair<std::string, int>;

@@ -4,13 +4,13 @@
 #include <string>
 
 #include "evaluation/simulated_run.h"
-#include "ros/replay/drive_judge.h"
+#include "ros/replay/drive_evaluator.h"
 #include "ros/replay/estimate_recorder.h"
 
 namespace slipnav {
 
 /// Keeps the whole drive.
-class SimulationResult : public DriveJudge {
+class SimulationResult : public DriveEvaluator {
  public:
   /// @param folder for the files of writeRunReport(); empty: none
   /// @param plots into that folder

@@ -15,6 +15,8 @@
 namespace slipnav::test {
 namespace {
 
+const Vector3 kNoChange = Vector3::Zero();
+
 using NavMatrix = Eigen::Matrix<double, 9, kNavStates>;
 
 /// A nominal state with what drives it.
@@ -48,7 +50,7 @@ std::vector<Situation> situations() {
 
 ErrorDynamics dynamics() { return {Planet::byName("earth"), ImuNoiseParams{}, VehicleModelParams{}}; }
 
-NavigationState mechanised(const Situation& s, const NavigationState& start, double duration_s) {
+NavigationState mechanized(const Situation& s, const NavigationState& start, double duration_s) {
   const Strapdown strapdown(Planet::byName("earth"));
   const ImuInterval imu{s.f_ib_b + s.start.accel_bias_b, s.omega_ib_b + s.start.gyro_bias_b, duration_s};
   return strapdown.propagate(start, {}, imu, 0);
@@ -66,7 +68,7 @@ NavMatrix growth(const Situation& s, double duration_s) {
       NavigationState neighbour = s.start;
       subtractError(earth, unitError(k, -sign * size(k)), neighbour);
       const ErrorVector before = errorBetween(earth, neighbour, s.start);
-      return errorBetween(earth, mechanised(s, neighbour, duration_s), mechanised(s, s.start, duration_s)) - before;
+      return errorBetween(earth, mechanized(s, neighbour, duration_s), mechanized(s, s.start, duration_s)) - before;
     };
     result.col(k) = (changeFrom(1.0) - changeFrom(-1.0)).head<9>() / (2.0 * size(k));
   }
@@ -137,14 +139,16 @@ TEST(ErrorDynamics, TransitionIsOfSecondOrder) {
   for (int i = 0; i < 5; ++i) {
     const Situation s = randomSituation(random, 1.0);
     const auto largestError = [&](double T) {
-      const ErrorTransition t = model.transition(s.start, mechanised(s, s.start, T), s.f_ib_b, s.omega_ib_b, T);
+      const ErrorTransition t =
+          model.transition(s.start, mechanized(s, s.start, T), s.f_ib_b, s.omega_ib_b, kNoChange, T);
       NavMatrix change = t.nav;
       change.leftCols<9>() -= Eigen::Matrix<double, 9, 9>::Identity();
       return (change - growth(s, T)).cwiseAbs().maxCoeff();
     };
     EXPECT_GT(std::log2(largestError(0.5) / largestError(0.25)), 2.7);
     const double T = 0.02;
-    const ErrorTransition t = model.transition(s.start, mechanised(s, s.start, T), s.f_ib_b, s.omega_ib_b, T);
+    const ErrorTransition t =
+        model.transition(s.start, mechanized(s, s.start, T), s.f_ib_b, s.omega_ib_b, kNoChange, T);
     const NavMatrix numeric = growth(s, T);
     for (const auto& [row, column] :
          {std::pair(kPosition, kAttitude), std::pair(kVelocity, kGyroBias), std::pair(kPosition, kAccelBias)}) {
@@ -162,10 +166,12 @@ TEST(ErrorDynamics, PropagationIsThatOfTheWholeMatrices) {
   for (int i = 0; i < 20; ++i) {
     const Situation s = randomSituation(random, 1.0);
     const double T = 0.5;
-    const ErrorTransition t = dynamics().transition(s.start, mechanised(s, s.start, T), s.f_ib_b, s.omega_ib_b, T);
+    const ErrorTransition t =
+        dynamics().transition(s.start, mechanized(s, s.start, T), s.f_ib_b, s.omega_ib_b, kNoChange, T);
     ErrorCovariance P = randomCovariance(random);
     const ErrorCovariance half_noise = (0.5 * t.noise).asDiagonal();
     const ErrorCovariance expected = t.matrix() * (P + half_noise) * t.matrix().transpose() + half_noise;
+    EXPECT_LT((t.times(P) - t.matrix() * P).norm(), 1e-12 * (t.matrix() * P).norm());
     ErrorDynamics::propagate(t, P);
     const ErrorVector sigma = expected.diagonal().cwiseSqrt();
     EXPECT_LT(((P - expected).array() / (sigma * sigma.transpose()).array()).abs().maxCoeff(), 1e-12);
@@ -183,13 +189,77 @@ TEST(ErrorDynamics, YawScaleTurnsTheAttitude) {
     const double scale = 1e-3;
     Situation scaled = s;
     scaled.omega_ib_b.z() *= 1.0 - scale;
-    const ErrorVector numeric = errorBetween(earth, mechanised(scaled, s.start, T), mechanised(s, s.start, T)) / scale;
-    const ErrorTransition t = dynamics().transition(s.start, mechanised(s, s.start, T), s.f_ib_b, s.omega_ib_b, T);
+    const ErrorVector numeric = errorBetween(earth, mechanized(scaled, s.start, T), mechanized(s, s.start, T)) / scale;
+    const ErrorTransition t =
+        dynamics().transition(s.start, mechanized(s, s.start, T), s.f_ib_b, s.omega_ib_b, kNoChange, T);
     EXPECT_GT(t.attitude_from_yaw_scale.norm(), 1e-4);
     EXPECT_LT((t.attitude_from_yaw_scale - numeric.segment<3>(kAttitude)).norm(),
               0.02 * t.attitude_from_yaw_scale.norm());
     EXPECT_LT((t.velocity_from_yaw_scale - numeric.segment<3>(kVelocity)).norm(),
               0.05 * t.velocity_from_yaw_scale.norm());
+  }
+}
+
+/// A step whose mean rate differs from that of the step before.
+class FasterTurn {
+ public:
+  FasterTurn(const Situation& s, const Vector3& change_b)
+      : s_(s),
+        change_b_(change_b),
+        before_{s.f_ib_b, s.omega_ib_b - change_b + s.start.gyro_bias_b, kStep_s},
+        now_{s.f_ib_b + s.start.accel_bias_b, s.omega_ib_b + s.start.gyro_bias_b, kStep_s} {}
+
+  NavigationState from(const NavigationState& start) const {
+    return Strapdown(Planet::byName("earth")).propagate(start, before_, now_, 0);
+  }
+  ErrorTransition transition() const {
+    return dynamics().transition(s_.start, from(s_.start), s_.f_ib_b, s_.omega_ib_b, change_b_, kStep_s);
+  }
+
+ private:
+  static constexpr double kStep_s = 0.02;
+  Situation s_;
+  Vector3 change_b_;
+  ImuInterval before_;
+  ImuInterval now_;
+};
+
+/// An estimate that takes the IMU to be farther ahead than it is removes too much of what turning makes it feel.
+TEST(ErrorDynamics, ImuOffsetMovesTheVelocity) {
+  const Planet earth = Planet::byName("earth");
+  sim::RandomStream random(10, "transition");
+  for (int i = 0; i < 5; ++i) {
+    const Situation s = randomSituation(random, 1.0);
+    const FasterTurn turn(s, 0.2 * random.normal3());
+    const NavigationState end = turn.from(s.start);
+    const ErrorTransition t = turn.transition();
+    for (int axis = 0; axis < 2; ++axis) {
+      NavigationState shifted = s.start;
+      shifted.imu_offset_b(axis) += 0.1;
+      const ErrorVector numeric = 10.0 * errorBetween(earth, turn.from(shifted), end);
+      const Eigen::Matrix<double, 6, 1> column = t.motion_from_offset.col(axis);
+      EXPECT_GT(column.head<3>().norm(), 0.01);
+      EXPECT_LT((column.head<3>() - numeric.segment<3>(kVelocity)).norm(), 0.02 * column.head<3>().norm());
+      EXPECT_LT((column.tail<3>() - numeric.segment<3>(kPosition)).norm(), 0.02 * column.tail<3>().norm());
+    }
+  }
+}
+
+/// Turned about the vertical with everything that moves, the world looks the same to IMU and wheels: Φ leads from
+/// turned to turned velocity, however far the IMU is from where it is configured to be.
+TEST(ErrorDynamics, HeadingStaysUnobservableWithAnOffset) {
+  sim::RandomStream random(11, "transition");
+  for (int i = 0; i < 5; ++i) {
+    Situation s = randomSituation(random, 1.0);
+    s.start.imu_offset_b = Vector3(0.4, -0.3, 0.0);
+    const FasterTurn turn(s, 0.2 * random.normal3());
+    const NavigationState end = turn.from(s.start);
+    const ErrorTransition t = turn.transition();
+    const Vector3 turned_before = Vector3::UnitZ().cross(s.start.v_eb_n);
+    const Vector3 turned =
+        t.nav.block<3, 1>(kVelocity, kAttitude + 2) + t.nav.block<3, 3>(kVelocity, kVelocity) * turned_before;
+    EXPECT_GT((turned - turned_before).norm(), 0.02);
+    EXPECT_LT((turned - Vector3::UnitZ().cross(end.v_eb_n)).norm(), 1e-3);
   }
 }
 

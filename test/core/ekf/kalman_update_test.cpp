@@ -79,9 +79,12 @@ TEST(KalmanUpdate, GainIsThatOfTheTextbook) {
     expected.row(kYawScale).setZero();
     const ErrorVector sigma = P.diagonal().cwiseSqrt();
     const ErrorCovariance updated = joseph(m, P).P;
-    const std::optional<KalmanGain> K = updateCovariance(m, P);
-    ASSERT_TRUE(K);
-    EXPECT_LT((sigma.cwiseInverse().asDiagonal() * (*K - expected)).norm(),
+    const ErrorCovariance before = P;
+    const std::optional<UpdateGain> used = updateCovariance(m, P);
+    ASSERT_TRUE(used);
+    EXPECT_LT((used->S.reconstructedMatrix() - (H * before * H.transpose() + R)).norm(),
+              1e-12 * used->S.reconstructedMatrix().norm());
+    EXPECT_LT((sigma.cwiseInverse().asDiagonal() * (used->K - expected)).norm(),
               1e-11 * (sigma.cwiseInverse().asDiagonal() * expected).norm());
     EXPECT_LT(largestRelativeDifference(P, updated), 1e-12);
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 
+#include "core/base/square.h"
 #include "simulation/random.h"
 #include "slipnav/core/ekf/engine/filter_data.h"
 
@@ -70,6 +71,7 @@ TEST_F(StationaryDetectorTest, WindowTellsMeanAndScatter) {
   const StationaryDetector::Window window = detector_.window();
   EXPECT_TRUE(window.filled);
   EXPECT_NEAR(std::sqrt(window.accel_variance), params().accel_std_mps2 / 3.0, 0.006);
+  EXPECT_NEAR(std::sqrt(window.gyro_variance), degToRad(params().gyro_std_deg_per_s) / 3.0, degToRad(0.04));
   EXPECT_NEAR(window.f_ib_b.norm(), kGravity, 0.03);
   EXPECT_NEAR(window.period_s, kImuPeriod_s, 0.002);
 }
@@ -162,6 +164,36 @@ TEST_F(StationaryDetectorTest, RestWithARunningEngineIsFoundAgain) {
   EXPECT_TRUE(verdict_);
   run(2.0, rough, turning, kNone);  // encoders dead, rover moving
   EXPECT_FALSE(verdict_);
+}
+
+/// Before the rover has driven, rest may scatter more; a restart makes it so again.
+TEST_F(StationaryDetectorTest, AfterAResetTheRoverHasNotDriven) {
+  const Signal engine = [](double t_s) { return 0.25 * std::sin(150.0 * t_s); };
+  run(0.5, engine, kNone, [](double) { return 0.5; });
+  run(2.0, engine, kNone, kNone);
+  EXPECT_FALSE(verdict_);
+  detector_.reset();
+  run(2.0, engine, kNone, kNone);
+  EXPECT_TRUE(verdict_);
+}
+
+/// What the data sheet says that the IMU scatters by at its rate is no motion, whatever the limits are.
+TEST_F(StationaryDetectorTest, TheNoiseOfThisImuIsNoMotion) {
+  const Signal force = [this](double) { return 0.2 * random_.normal(); };
+  const Signal rate = [this](double) { return degToRad(0.8) * random_.normal(); };
+  ImuFloor floor;
+  floor.accel_bias_std = 0.1;
+  floor.gyro_bias_std = degToRad(0.3);
+  const auto drive_and_rest = [&] {
+    detector_ = StationaryDetector(params(), floor);
+    run(0.5, force, rate, [](double) { return 0.5; });
+    run(2.0, force, rate, kNone);
+    return verdict_;
+  };
+  EXPECT_FALSE(drive_and_rest());
+  floor.accel_density = square(0.15) * kImuPeriod_s;
+  floor.gyro_density = square(degToRad(0.6)) * kImuPeriod_s;
+  EXPECT_TRUE(drive_and_rest());
 }
 
 /// One encoder that is stuck at zero does not fake a stop: the fastest wheel counts.

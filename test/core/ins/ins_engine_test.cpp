@@ -48,7 +48,7 @@ std::vector<InsStep> drain(InsEngine& engine) {
 /// An engine that starts at the first sample and has got all of them.
 InsEngine filled(const std::vector<ImuSample>& imu) {
   InsEngine engine(earth(), {});
-  engine.initialise(stateAt(imu.front().stamp));
+  engine.initialize(stateAt(imu.front().stamp));
   for (const ImuSample& sample : imu) {
     EXPECT_TRUE(isAccepted(engine.push(sample)));
   }
@@ -67,7 +67,6 @@ TEST(InsEngine, MechanisesEachIntervalOnce) {
     const ImuInterval interval{imu[i + 1].f_ib_b, imu[i + 1].omega_ib_b, toSeconds(kPeriod)};
     state = strapdown.propagate(state, previous, interval, imu[i + 1].stamp);
     previous = interval;
-    EXPECT_EQ(steps[i].sequence, i);
     EXPECT_EQ(steps[i].epoch, 0U);
     EXPECT_EQ(steps[i].start, imu[i].stamp);
     EXPECT_TRUE(sameState(steps[i].state, state));
@@ -82,7 +81,7 @@ TEST(InsEngine, StepsAreFreeOfTheBiases) {
   NavigationState start = stateAt(kStart);
   start.accel_bias_b = Vector3(0.1, 0.2, 0.3);
   start.gyro_bias_b = Vector3(0.01, 0.02, 0.03);
-  engine.initialise(start);
+  engine.initialize(start);
   for (const ImuSample& sample : imu) {
     engine.push(sample);
   }
@@ -98,11 +97,10 @@ TEST(InsEngine, StartsInsideAnInterval) {
     engine.push(sample);
   }
   EXPECT_FALSE(engine.step());  // no initial state
-  EXPECT_FALSE(engine.isInitialised());
-  engine.initialise(stateAt(kStart + kPeriod + kPeriod / 4));
+  EXPECT_FALSE(engine.isInitialized());
+  engine.initialize(stateAt(kStart + kPeriod + kPeriod / 4));
   const std::vector<InsStep> steps = drain(engine);
   ASSERT_EQ(steps.size(), 3U);
-  EXPECT_EQ(steps[0].sequence, 0U);
   EXPECT_EQ(steps[0].start, kStart + kPeriod + kPeriod / 4);
   EXPECT_EQ(steps[0].state.stamp, imu[2].stamp);
   EXPECT_EQ(steps[1].start, imu[2].stamp);
@@ -114,11 +112,11 @@ TEST(InsEngine, RewindGivesTheSameAsTheSequentialRun) {
   InsEngine engine = filled(imu);
   const std::vector<InsStep> sequential = drain(engine);
   for (const std::size_t back_to : {150U, 150U, 170U, 198U}) {
-    ASSERT_TRUE(engine.correct({back_to, 7, sequential[back_to].state}));
+    ASSERT_TRUE(engine.correct({7, sequential[back_to].state}));
     const std::vector<InsStep> again = drain(engine);
     ASSERT_EQ(again.size(), sequential.size() - back_to - 1);
     for (std::size_t i = 0; i < again.size(); ++i) {
-      EXPECT_EQ(again[i].sequence, back_to + 1 + i);
+      EXPECT_EQ(again[i].start, sequential[back_to + 1 + i].start);
       EXPECT_EQ(again[i].epoch, 7U);
       EXPECT_TRUE(sameState(again[i].state, sequential[back_to + 1 + i].state));
     }
@@ -129,7 +127,7 @@ TEST(InsEngine, GoesOnFromTheCorrectedState) {
   const std::vector<ImuSample> imu = samples(50);
   InsEngine engine = filled(imu);
   const std::vector<InsStep> steps = drain(engine);
-  Correction correction{30, 1, steps[30].state};
+  Correction correction{1, steps[30].state};
   correction.state.v_eb_n += Vector3(1.0, 2.0, 3.0);
   correction.state.accel_bias_b = Vector3(0.1, 0.0, 0.0);
   ASSERT_TRUE(engine.correct(correction));
@@ -137,7 +135,7 @@ TEST(InsEngine, GoesOnFromTheCorrectedState) {
   const ImuInterval after{imu[32].f_ib_b, imu[32].omega_ib_b, toSeconds(kPeriod)};
   const NavigationState expected = Strapdown(earth()).propagate(correction.state, before, after, imu[32].stamp);
   const InsStep step = engine.step().value();
-  EXPECT_EQ(step.sequence, 31U);
+  EXPECT_EQ(step.start, steps[30].state.stamp);
   EXPECT_TRUE(sameState(step.state, expected));
   EXPECT_EQ(step.f_ib_b, imu[32].f_ib_b - correction.state.accel_bias_b);
 }
@@ -146,19 +144,19 @@ TEST(InsEngine, GoesOnFromTheCorrectedState) {
 TEST(InsEngine, LateCorrectionsAreAsGoodAsTimelyOnes) {
   const std::vector<ImuSample> imu = samples(100);
   const auto correctionOf = [](const InsStep& step) {
-    Correction correction{step.sequence, step.epoch + 1, step.state};
+    Correction correction{step.epoch + 1, step.state};
     correction.state.v_eb_n *= 0.5;
     correction.state.gyro_bias_b += Vector3(1e-4, 0.0, 0.0);
     return correction;
   };
   InsEngine timely(earth(), {});
-  timely.initialise(stateAt(kStart));
+  timely.initialize(stateAt(kStart));
   NavigationState last_timely;
   for (const ImuSample& sample : imu) {
     timely.push(sample);
     if (const std::optional<InsStep> step = timely.step()) {
       last_timely = step->state;
-      if (step->sequence % 10 == 5) {
+      if ((step->start - kStart) / kPeriod % 10 == 5) {
         timely.correct(correctionOf(*step));
       }
     }
@@ -167,22 +165,59 @@ TEST(InsEngine, LateCorrectionsAreAsGoodAsTimelyOnes) {
   std::vector<InsStep> steps = drain(late);
   for (std::uint64_t k = 5; k < 99; k += 10) {
     const InsStep target = k == 5 ? steps[k] : steps[9];
-    ASSERT_EQ(target.sequence, k);
+    ASSERT_EQ(target.start, kStart + static_cast<Nanoseconds>(k) * kPeriod);
     ASSERT_TRUE(late.correct(correctionOf(target)));
     steps = drain(late);
   }
   EXPECT_TRUE(sameState(steps.back().state, last_timely));
 }
 
+/// Another engine made the steps so far, and stopped being heard: this one continues from the last correction.
+TEST(InsEngine, AdoptsTheCorrectionOfAnother) {
+  const std::vector<ImuSample> imu = samples(60);
+  InsEngine other = filled(imu);
+  const Correction correction{7, drain(other)[30].state};
+  ASSERT_TRUE(other.correct(correction));
+  const std::vector<InsStep> expected = drain(other);
+  InsEngine engine(earth(), {});
+  for (std::size_t i = 25; i < imu.size(); ++i) {
+    engine.push(imu[i]);
+  }
+  EXPECT_FALSE(engine.step());
+  engine.adopt(correction);
+  const std::vector<InsStep> steps = drain(engine);
+  ASSERT_EQ(steps.size(), expected.size());
+  EXPECT_EQ(steps.front().epoch, 7U);
+  EXPECT_EQ(steps.back().epoch, 7U);
+  EXPECT_EQ(steps.front().start, correction.state.stamp);
+  EXPECT_EQ(steps.front().gap_s, 0.0);
+  EXPECT_LT((steps.back().state.v_eb_n - expected.back().state.v_eb_n).norm(), 1e-3)
+      << "only the coning from the interval before the first is missing";
+}
+
+TEST(InsEngine, TheTimeBetweenAnAdoptedCorrectionAndTheFirstSampleIsAGap) {
+  const std::vector<ImuSample> imu = samples(40);
+  InsEngine engine(earth(), {});
+  for (std::size_t i = 30; i < imu.size(); ++i) {
+    engine.push(imu[i]);
+  }
+  engine.adopt({3, stateAt(imu[20].stamp)});
+  const InsStep step = engine.step().value();
+  EXPECT_EQ(step.epoch, 3U);
+  EXPECT_EQ(step.state.stamp, imu[31].stamp);
+  EXPECT_NEAR(step.gap_s, toSeconds(10 * kPeriod), 1e-9);
+}
+
 TEST(InsEngine, CorrectionsOfStepsThatAreNotThereAreRefused) {
   const std::vector<ImuSample> imu = samples(50);
   InsEngine engine = filled(imu);
   const std::vector<InsStep> steps = drain(engine);
-  EXPECT_FALSE(engine.correct({49, 1, stateAt(0)}));  // not mechanized yet
-  EXPECT_TRUE(engine.correct({30, 1, steps[30].state}));
+  EXPECT_FALSE(engine.correct({1, stateAt(imu.back().stamp + kPeriod)}));  // not mechanized yet
+  EXPECT_FALSE(engine.correct({1, stateAt(imu[30].stamp + 1)}));           // between two steps
+  EXPECT_TRUE(engine.correct({1, steps[30].state}));
   drain(engine);
-  EXPECT_FALSE(engine.correct({29, 2, steps[29].state}));  // given up by the one before
-  EXPECT_FALSE(InsEngine(earth(), {}).correct({0, 1, stateAt(0)}));
+  EXPECT_FALSE(engine.correct({2, steps[29].state}));  // given up by the one before
+  EXPECT_FALSE(InsEngine(earth(), {}).correct({1, stateAt(0)}));
 }
 
 TEST(InsEngine, KeepsWhatComesBeforeTheInitialState) {
@@ -192,7 +227,7 @@ TEST(InsEngine, KeepsWhatComesBeforeTheInitialState) {
   for (const ImuSample& sample : imu) {
     ASSERT_TRUE(isAccepted(engine.push(sample)));
   }
-  engine.initialise(stateAt(imu[10].stamp));
+  engine.initialize(stateAt(imu[10].stamp));
   const std::vector<InsStep> steps = drain(engine);
   ASSERT_EQ(steps.size(), static_cast<std::size_t>(count - 11));
   EXPECT_EQ(steps.front().start, imu[10].stamp);
@@ -209,9 +244,6 @@ TEST(InsEngine, VerdictsAreThoseOfTheScreen) {
   EXPECT_EQ(engine.push(bad), ImuVerdict::kNotFinite);
   bad.f_ib_b.x() = 1e9;
   EXPECT_EQ(engine.push(bad), ImuVerdict::kOutOfRange);
-  bad = imu.back();
-  bad.stamp -= 5 * kRestartBackstep;
-  EXPECT_EQ(engine.push(bad), ImuVerdict::kTimeWentBack);
   EXPECT_EQ(engine.newestStamp(), imu.back().stamp);
   EXPECT_EQ(drain(engine).size(), 59U);
 }
@@ -223,7 +255,7 @@ TEST(InsEngine, StartsLongBeforeTheSamples) {
   for (const ImuSample& sample : imu) {
     engine.push(sample);
   }
-  engine.initialise(stateAt(kStart - 20 * kPeriod));
+  engine.initialize(stateAt(kStart - 20 * kPeriod));
   const std::vector<InsStep> steps = drain(engine);
   ASSERT_EQ(steps.size(), 4U);
   EXPECT_EQ(steps[0].state.stamp, imu[1].stamp);
@@ -265,7 +297,7 @@ TEST(InsEngine, InstantaneousSamplesAreAveraged) {
   params.sampling = "instantaneous";
   InsEngine engine(earth(), params);
   const std::vector<ImuSample> imu = samples(2);
-  engine.initialise(stateAt(kStart));
+  engine.initialize(stateAt(kStart));
   engine.push(imu[0]);
   engine.push(imu[1]);
   const InsStep step = engine.step().value();
@@ -273,13 +305,35 @@ TEST(InsEngine, InstantaneousSamplesAreAveraged) {
   EXPECT_EQ(step.omega_ib_b, 0.5 * (imu[0].omega_ib_b + imu[1].omega_ib_b));
 }
 
-TEST(InsEngine, ResetForgetsEverything) {
+TEST(InsEngine, ForgetsEverythingWhenTheSourceHasRestarted) {
   InsEngine engine = filled(samples(10));
-  engine.reset();
-  EXPECT_FALSE(engine.isInitialised());
-  EXPECT_EQ(engine.newestStamp(), 0);
-  engine.initialise(stateAt(kStart));
+  const Nanoseconds before = kStart - 5 * kRestartBackstep;
+  EXPECT_EQ(engine.push({before, -9.8 * Vector3::UnitZ(), Vector3::Zero()}), ImuVerdict::kTimeWentBack);
+  EXPECT_FALSE(engine.isInitialized());
+  EXPECT_EQ(engine.newestStamp(), before);
+  EXPECT_EQ(engine.restarts(), 1U);
+  engine.initialize(stateAt(before));
   EXPECT_FALSE(engine.step());
+  EXPECT_EQ(engine.push({before + kPeriod, -9.7 * Vector3::UnitZ(), Vector3::Zero()}), ImuVerdict::kAccepted);
+  EXPECT_EQ(engine.step().value().start, before);
+}
+
+/// Memory does not grow with the drive: the oldest steps, which no correction can reach any more, go.
+TEST(InsEngine, KeepsTheNewestStepsOnly) {
+  const std::vector<ImuSample> imu = samples(20000);
+  InsEngine engine(earth(), {});
+  engine.initialize(stateAt(imu.front().stamp));
+  std::vector<InsStep> steps;
+  for (const ImuSample& sample : imu) {
+    engine.push(sample);
+    for (const InsStep& step : drain(engine)) {
+      steps.push_back(step);
+    }
+  }
+  ASSERT_EQ(steps.size(), imu.size() - 1);
+  EXPECT_FALSE(engine.correct({1, steps[steps.size() - 6000].state}));
+  EXPECT_TRUE(engine.correct({1, steps[steps.size() - 2000].state}));
+  EXPECT_TRUE(sameState(drain(engine).back().state, steps.back().state));
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ AnalyticMotion roughRide() {
 }
 
 ErrorVector errorAfter(const AnalyticMotion& motion, double duration_s, double rate_hz) {
-  return errorBetween(motion.planet(), mechanise(motion, duration_s, rate_hz), motion.state(duration_s));
+  return errorBetween(motion.planet(), mechanize(motion, duration_s, rate_hz), motion.state(duration_s));
 }
 
 /// Exponent k of an error that behaves like T^k, from one halving of T.
@@ -91,7 +91,7 @@ TEST(StrapdownOrder, JitterDoesNoHarm) {
     ends_s.push_back((static_cast<double>(i) + random.uniform(-0.25, 0.25)) / rate_hz);
   }
   ends_s.push_back(duration_s);
-  const NavigationState end = mechanise(motion, ends_s, -1.0 / rate_hz);
+  const NavigationState end = mechanize(motion, ends_s, -1.0 / rate_hz);
   const ErrorVector jittered = errorBetween(motion.planet(), end, motion.state(duration_s));
   const ErrorVector regular = errorAfter(motion, duration_s, rate_hz);
   EXPECT_LT(jittered.segment<3>(kPosition).norm(), 3.0 * regular.segment<3>(kPosition).norm());

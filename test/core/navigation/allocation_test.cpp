@@ -29,7 +29,7 @@ TEST(Navigator, TakesNoMemoryWhileItRuns) {
   const RecordedDrive drive = recordDrive(config);
   const NavigationSetup setup = config.navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive.initial);
+  navigator.initialize(drive.initial);
   std::size_t estimates = 0;
   const FilterEngine::EstimateSink sink = [&estimates](const Estimate&, const ErrorCovariance&) { ++estimates; };
   const auto push = [&](std::size_t i) {

@@ -23,7 +23,7 @@ Checkpoint someCheckpoint() {
   state.nav.gyro_bias_b = {1e-5, -2e-5, 3e-5};
   state.vehicle = {0.01, 0.02, 0.03, 0.04, 0.05, 0.06};
   state.origin = {0.691, -1.391, 299.0};
-  state.tremor_variance = 1e-6;
+  state.standstill_variance = 1e-6;
   const ErrorCovariance root = ErrorCovariance::Random();
   state.P = root * root.transpose() + ErrorCovariance::Identity();
   checkpoint.session = 3;
@@ -57,7 +57,7 @@ TEST(Checkpoint, NothingIsLostInText) {
   EXPECT_EQ(back.state.vehicle.side_slip, 0.04);
   EXPECT_EQ(back.state.vehicle.mount_pitch_rad, 0.05);
   EXPECT_EQ(back.state.vehicle.mount_yaw_rad, 0.06);
-  EXPECT_EQ(back.state.tremor_variance, checkpoint.state.tremor_variance);
+  EXPECT_EQ(back.state.standstill_variance, checkpoint.state.standstill_variance);
   EXPECT_EQ(back.session, 3U);
   EXPECT_EQ(back.slip_hyperparameters, checkpoint.slip_hyperparameters);
 }
@@ -74,7 +74,7 @@ TEST(Checkpoint, EveryChangedCharacterIsNoticed) {
 TEST(Checkpoint, RefusalsNameWhatIsWrong) {
   const std::string text = formatCheckpoint(someCheckpoint());
   EXPECT_EQ(refusalOf(""), "checkpoint has another format or version");
-  EXPECT_EQ(refusalOf(replaced(text, "checkpoint 1", "checkpoint 2")), "checkpoint has another format or version");
+  EXPECT_EQ(refusalOf(replaced(text, "checkpoint 2", "checkpoint 3")), "checkpoint has another format or version");
   EXPECT_EQ(refusalOf(text.substr(0, text.size() / 2)), "checkpoint is truncated");
   EXPECT_EQ(refusalOf(replaced(text, "session 3", "session 4")), "checkpoint is damaged: its checksum is wrong");
 }
@@ -173,10 +173,28 @@ TEST(ResumeFrom, GrowsByWhatMayHaveBeenDrivenMeanwhile) {
   EXPECT_DOUBLE_EQ(state.P(kAttitude, kAttitude), before(kAttitude, kAttitude) + std::pow(degToRad(3.0), 2));
   EXPECT_DOUBLE_EQ(state.P(kAttitude + 2, kAttitude + 2),
                    before(kAttitude + 2, kAttitude + 2) + std::pow(degToRad(12.0), 2));
-  EXPECT_DOUBLE_EQ(state.P(kFastSlip, kFastSlip), 0.25);
-  EXPECT_EQ(state.vehicle.fast_slip, 0.0);
   EXPECT_EQ(state.vehicle.wheel_scale, checkpoint.state.vehicle.wheel_scale);
+  EXPECT_EQ(state.vehicle.mount_pitch_rad, checkpoint.state.vehicle.mount_pitch_rad);
+  EXPECT_EQ(state.vehicle.mount_yaw_rad, checkpoint.state.vehicle.mount_yaw_rad);
   EXPECT_EQ(state.P(kGyroBias, kGyroBias), before(kGyroBias, kGyroBias));
+}
+
+/// The ground is another one by then: each slip begins with its own prior, and correlates with nothing.
+TEST(ResumeFrom, SlipIsForgotten) {
+  const Checkpoint checkpoint = someCheckpoint();
+  ErrorVector prior = ErrorVector::Zero();
+  prior(kSlowSlip) = 0.1;
+  prior(kFastSlip) = 0.2;
+  prior(kSideSlip) = 0.3;
+  const InitialState state = resumeFrom(checkpoint, checkpoint.state.nav.stamp + kSecond, prior, {});
+  EXPECT_EQ(state.vehicle.slow_slip, 0.0);
+  EXPECT_EQ(state.vehicle.fast_slip, 0.0);
+  EXPECT_EQ(state.vehicle.side_slip, 0.0);
+  for (const int slip : {kSlowSlip, kFastSlip, kSideSlip}) {
+    EXPECT_EQ(state.P(slip, slip), prior(slip));
+    EXPECT_EQ(state.P.row(slip).cwiseAbs().sum(), prior(slip));
+    EXPECT_EQ(state.P.col(slip).cwiseAbs().sum(), prior(slip));
+  }
 }
 
 TEST(ResumeFrom, TurnsStayWithinWhatTheFilterCanTake) {

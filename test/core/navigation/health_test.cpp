@@ -28,7 +28,7 @@ TEST(HealthMonitor, SilentAndContradictingWheelsAreNoticed) {
   const RecordedDrive drive = recordDrive(config);
   const NavigationSetup setup = config.navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive.initial);
+  navigator.initialize(drive.initial);
   HealthMonitor health(setup.filter);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   const Nanoseconds silent_from = drive.samples.back().stamp() - 3 * kSecond;
@@ -53,7 +53,7 @@ TEST(HealthMonitor, WhatIsNotMeasuredContradictsNothing) {
   const RecordedDrive drive = recordDrive(config);
   const NavigationSetup setup = config.navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive.initial);
+  navigator.initialize(drive.initial);
   HealthMonitor health(setup.filter);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   const Nanoseconds wrong_from = drive.samples.back().stamp() - 9 * kSecond;  // driving

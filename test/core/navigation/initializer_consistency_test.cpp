@@ -26,7 +26,7 @@ MeanNees meanNees(int starts) {
   for (int seed = 101; seed < 101 + starts; ++seed) {
     Config config = startConfig(seed);
     config.filter.adaptation.imu_factor_std = 1.0;  // the simulated IMU is as its data sheet says
-    const Start start = initialise(config);
+    const Start start = initialize(config);
     EXPECT_TRUE(start.initial) << start.progress;
     const Vector3 position = errorOf(start).segment<3>(kPosition);
     const Matrix3 P = start.initial->P.block<3, 3>(kPosition, kPosition);
@@ -53,7 +53,7 @@ TEST(Initializer, CovarianceIsConsistentOverManyStarts) {
   EXPECT_LT(nees.gyro_vertical, upper(kStarts));
   EXPECT_GT(nees.gyro_vertical, lower(kStarts));
   // Level and horizontal gyro biases are promised better than they are by up to a factor of 2 in variance: the limits
-  // named in doc/filter.md and doc/initialisation.md.
+  // named in doc/filter.md and doc/initialization.md.
   constexpr double kKnownOverconfidence = 2.0;
   EXPECT_LT(nees.level, kKnownOverconfidence * upper(2 * kStarts));
   EXPECT_GT(nees.level, lower(2 * kStarts));

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "evaluation/simulated_drive.h"
+#include "random_states.h"
 #include "simulated_start.h"
 #include "simulation/simulator.h"
 #include "slipnav/core/base/rotation.h"
@@ -16,7 +19,7 @@ namespace {
 
 TEST(Initializer, RestAndDriveGiveTheHeading) {
   for (int seed = 1; seed <= 5; ++seed) {
-    const Start start = initialise(startConfig(seed));
+    const Start start = initialize(startConfig(seed));
     ASSERT_TRUE(start.initial) << start.progress;
     ASSERT_EQ(start.truth.stamp, start.initial->nav.stamp);
     EXPECT_LT(sigmas(start, kAttitude + 2), 3.5) << seed;
@@ -35,7 +38,7 @@ TEST(Initializer, AntennaLeverArmIsTakenOut) {
   config.gps_mount.x_m = -0.6;
   config.gps_mount.y_m = -0.8;
   config.gps_mount.z_m = 1.5;
-  const Start start = initialise(config);
+  const Start start = initialize(config);
   ASSERT_TRUE(start.initial) << start.progress;
   EXPECT_LT(errorOf(start).segment<3>(kPosition).norm(), 0.1);
   const Geodetic true_origin{degToRad(config.simulator.start_latitude_deg),
@@ -44,13 +47,13 @@ TEST(Initializer, AntennaLeverArmIsTakenOut) {
 }
 
 TEST(Initializer, SaysWhatItIsWaitingFor) {
-  const Start start = initialise(startConfig(1));
+  const Start start = initialize(startConfig(1));
   const std::vector<std::string> expected = {"waiting for a standstill of 5 s", "at rest: ready for the straight drive",
                                              "straight drive under gps/fix"};
   EXPECT_EQ(start.said, expected);
   Interference no_fixes;
   no_fixes.no_fixes_from_s = 0.0;
-  const Start blind = initialise(startConfig(1), no_fixes);
+  const Start blind = initialize(startConfig(1), no_fixes);
   EXPECT_FALSE(blind.initial);
   EXPECT_EQ(blind.progress, "waiting for gps/fix");
 }
@@ -59,7 +62,7 @@ TEST(Initializer, SaysThatFixesHaveStopped) {
   Interference outage;
   outage.no_fixes_from_s = 14.0;
   outage.no_fixes_until_s = 19.0;
-  const Start start = initialise(startConfig(1), outage);
+  const Start start = initialize(startConfig(1), outage);
   const std::vector<std::string> expected = {"waiting for a standstill of 5 s", "at rest: ready for the straight drive",
                                              "straight drive under gps/fix", "gps/fix silent",
                                              "straight drive under gps/fix"};
@@ -77,10 +80,10 @@ TEST(Initializer, SatelliteVelocitiesHelpPoorPositions) {
     Config config = startConfig(seed);
     config.simulator.gps.horizontal_noise_m = 1.0;
     config.simulator.gps.vertical_noise_m = 2.0;
-    const Start poor = initialise(config);
+    const Start poor = initialize(config);
     Interference interference;
     interference.velocity_std_mps = 0.05;
-    const Start helped = initialise(config, interference);
+    const Start helped = initialize(config, interference);
     ASSERT_TRUE(poor.initial) << poor.progress;
     ASSERT_TRUE(helped.initial) << helped.progress;
     for (const int index : {kAttitude + 2, static_cast<int>(kVelocity), kVelocity + 1, kVelocity + 2}) {
@@ -99,7 +102,7 @@ TEST(Initializer, WithoutRestItLevelsOnTheMove) {
   config.simulator.drive.initial_straight_m = 20.0;
   Interference late;
   late.ignore_before_s = 14.0;
-  const Start start = initialise(config, late);
+  const Start start = initialize(config, late);
   ASSERT_TRUE(start.initial) << start.progress;
   EXPECT_LT(sigmas(start, kAttitude + 2), 3.5);
   EXPECT_LT(sigmas(start, kAttitude), 3.5);
@@ -117,7 +120,7 @@ TEST(Initializer, GivenPoseIsTakenAndLevelled) {
   config.initialization.height_m = 222.0;
   config.initialization.position_std_m = 0.5;
   config.initialization.levelling_window_s = 5.0;
-  const Start start = initialise(config);
+  const Start start = initialize(config);
   ASSERT_TRUE(start.initial);
   const InitialState& initial = *start.initial;
   const Vector3 euler = eulerFrom_q_b_to_n(initial.nav.q_b_to_n);
@@ -139,7 +142,7 @@ TEST(Initializer, MotionStartsWhileDriving) {
   config.initialization.levelling_window_s = 5.0;
   Interference late;
   late.ignore_before_s = 15.0;
-  const Start start = initialise(config, late);
+  const Start start = initialize(config, late);
   ASSERT_TRUE(start.initial);
   // forward speed along the given heading, roll and pitch near the truth
   const Vector3 v_b = start.initial->nav.q_b_to_n.conjugate() * start.initial->nav.v_eb_n;
@@ -222,6 +225,44 @@ TEST(Initializer, TruthIsTakenAsItIs) {
   EXPECT_NEAR(initial->P(kPosition, kPosition), 4e-4, 1e-12);
   initializer.reset();
   EXPECT_FALSE(initializer.result());
+}
+
+/// The clocks of all sensors have been set back to where they were.
+TEST(Initializer, StartsAgainLikeAFreshOne) {
+  const Config config = startConfig(2);
+  const Planet planet = Planet::byName(config.planet);
+  const WheelGeometry geometry = config.wheelGeometry();
+  std::vector<sim::Measurements> drive;
+  NeverStop policy;
+  simulateDrive(config.simulator, planet, policy,
+                [&](const sim::Measurements& m, const sim::TruthState&) { drive.push_back(m); });
+  const NavigationSetup setup = config.navigation();
+  Initializer initializer(planet, setup.initialization, setup.imu_input, setup.filter);
+  Nanoseconds newest_wheels = 0;
+  const auto start = [&] {
+    for (const sim::Measurements& m : drive) {
+      if (m.gps) {
+        initializer.push(toPositionFix(*m.gps));
+      }
+      if (m.wheel) {
+        initializer.push(toWheelMotion(geometry, *m.wheel));
+        newest_wheels = m.wheel->stamp;
+      }
+      initializer.push(m.imu);
+      if (const std::optional<InitialState> initial = initializer.result()) {
+        EXPECT_EQ(initial->nav.stamp, newest_wheels) << "as soon as the wheels are known up to a fix";
+        return *initial;
+      }
+    }
+    return InitialState{};
+  };
+  const InitialState first = start();
+  ASSERT_GT(first.nav.stamp, 0);
+  initializer.reset();
+  const InitialState second = start();
+  EXPECT_EQ(second.nav.stamp, first.nav.stamp);
+  EXPECT_TRUE(sameState(second.nav, first.nav));
+  EXPECT_EQ(second.P, first.P);
 }
 
 TEST(Initializer, IsNotMisledByBadSamples) {

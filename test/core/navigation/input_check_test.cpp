@@ -84,10 +84,23 @@ TEST(InputCheck, namesGyrosInDegreesPerSecond) {
   EXPECT_TRUE(has(drive.complaint(), "in deg/s?")) << drive.complaint();
 }
 
+/// Wheels that hardly grip in a turn: their track on the ground is another one.
+TEST(InputCheck, takesNoScrubForAUnit) {
+  Drive drive;
+  drive.damage = [](ImuSample& s) { s.omega_ib_b.z() *= 10.0; };
+  EXPECT_FALSE(has(drive.complaint(), "in deg/s?")) << drive.complaint();
+  drive.damage = [](ImuSample& s) { s.omega_ib_b.z() *= 20.0; };
+  EXPECT_TRUE(has(drive.complaint(), "in deg/s?")) << drive.complaint();
+}
+
 TEST(InputCheck, namesGyrosThatTurnTheOtherWay) {
   Drive drive;
   drive.damage = [](ImuSample& s) { s.omega_ib_b.z() = -s.omega_ib_b.z(); };
   EXPECT_TRUE(has(drive.complaint(), "opposite directions")) << drive.complaint();
+  drive.damage = [](ImuSample& s) { s.omega_ib_b.z() *= -0.4; };
+  EXPECT_TRUE(has(drive.complaint(), "opposite directions")) << "of a rover that scrubs: " << drive.complaint();
+  drive.damage = [](ImuSample& s) { s.omega_ib_b.z() *= -0.2; };
+  EXPECT_EQ(drive.complaint(), "") << "sliding sideways on a slope";
 }
 
 TEST(InputCheck, namesWheelsWithoutSign) {

@@ -1,6 +1,6 @@
 /// The filter's answer depends on stamps, not on the order of arrival; and it survives whatever the sensors do.
 
-#include "slipnav/core/navigation/navigator.h"
+#include "core/navigation/navigator.h"
 
 #include <gtest/gtest.h>
 
@@ -119,7 +119,7 @@ TEST(Navigator, WheelsBeforeTheyAreDueGiveTheSameHoweverLate) {
 TEST(Navigator, EstimatesComeWithTheImuSample) {
   const NavigationSetup setup = config().navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive().initial);
+  navigator.initialize(drive().initial);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   const Nanoseconds learned = drive().initial.nav.stamp + fromSeconds(1.0);
   int at_once = 0;
@@ -155,7 +155,7 @@ TEST(Navigator, ComparisonSeesTheLastBit) {
 TEST(Navigator, WheelsLaterThanTheWaitAreRefused) {
   const NavigationSetup setup = config().navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive().initial);
+  navigator.initialize(drive().initial);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   const double lag_s = setup.filter.filter.max_wait_s + 0.5;
   const Nanoseconds end = drive().samples.back().stamp() - fromSeconds(lag_s);
@@ -174,7 +174,7 @@ TEST(Navigator, WheelsLaterThanTheWaitAreRefused) {
 TEST(Navigator, BadWheelsAreRefused) {
   const NavigationSetup setup = config().navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive().initial);
+  navigator.initialize(drive().initial);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   WheelMotion wheels;
   wheels.stamp = drive().initial.nav.stamp + fromSeconds(0.1);
@@ -273,7 +273,7 @@ TEST(Navigator, AGapWithManyWheelSamplesInItDoesNoHarm) {
 TEST(Navigator, DoesNotWaitLongerThanForTheNextWheels) {
   const NavigationSetup setup = config().navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive().initial);
+  navigator.initialize(drive().initial);
   Nanoseconds told = 0;
   const auto sink = [&told](const Estimate& e, const ErrorCovariance&) { told = e.nav.stamp; };
   const double learning_s = 2.0;  // of the usual interval between wheel samples
@@ -297,7 +297,7 @@ TEST(Navigator, FreeInertialDoesNotWaitForWheels) {
   free_inertial.filter.updates = {};
   const NavigationSetup setup = free_inertial.navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive().initial);
+  navigator.initialize(drive().initial);
   Nanoseconds told = 0;
   for (const DriveSample& sample : drive().samples) {
     if (sample.is_imu) {

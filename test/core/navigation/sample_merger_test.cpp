@@ -100,7 +100,7 @@ TEST_F(SampleMergerTest, WrongStampsAreLeftOut) {
   EXPECT_EQ(merger_.leftOut(), 2U);
 }
 
-TEST_F(SampleMergerTest, SilenceIsJudgedByTrustedStampsAlone) {
+TEST_F(SampleMergerTest, SilenceIsJudgedBySettledStampsAlone) {
   merger_.push(imuAt(2000));
   merger_.push(imuAt(2900));
   merger_.push(imuAt(3800));

@@ -47,6 +47,24 @@ TEST(StartRecording, AShortHaltInTheDriveIsNoRest) {
   EXPECT_EQ(recording.rest().begin, begin);
 }
 
+TEST(StartRecording, FindsTheSampleOfAStampAndTheNextOne) {
+  StartRecording recording(StationaryParams{}, ImuFloor{}, kGravity_mps2, 5.0, 60.0);
+  add(recording, 100.0, 110.0, true);
+  EXPECT_EQ(recording.firstImuStampFrom(fromSeconds(105.0)), fromSeconds(105.0));
+  EXPECT_EQ(recording.firstImuStampFrom(fromSeconds(105.0) + 1), fromSeconds(105.02));
+  EXPECT_EQ(recording.firstImuStampFrom(fromSeconds(110.0) + 1), std::nullopt);
+}
+
+TEST(StartRecording, AWindowDoesNotBeginBeforeAGap) {
+  StartRecording recording(StationaryParams{}, ImuFloor{}, kGravity_mps2, 5.0, 60.0);
+  add(recording, 100.0, 104.0, true);
+  add(recording, 107.0, 110.0, true);
+  EXPECT_EQ(recording.windowBeginFrom(fromSeconds(102.0), 1.0), fromSeconds(102.0));
+  EXPECT_EQ(recording.windowBeginFrom(fromSeconds(104.0), 1.0), fromSeconds(107.02));
+  EXPECT_EQ(recording.windowBeginFrom(fromSeconds(104.0), 4.0), fromSeconds(104.0)) << "a window longer than the gap";
+  EXPECT_EQ(recording.windowBeginFrom(fromSeconds(110.0), 1.0), std::nullopt);
+}
+
 TEST(StartRecording, DoesNotGrowWithoutBound) {
   StartRecording recording(StationaryParams{}, ImuFloor{}, kGravity_mps2, 5.0, 60.0);
   add(recording, 100.0, 120.0, true);

@@ -161,6 +161,26 @@ TEST_F(ImuClockTest, LossesAmongScatteredStampsAreCounted) {
   EXPECT_EQ(clock_.faults().lost, 4U);
 }
 
+/// One sample less among stamps that scatter by nearly a period may show in a whole block only. It is no scatter.
+TEST_F(ImuClockTest, ALossThatScatterHidesIsFoundSoonAfter) {
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U}) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(-0.004, 0.004);
+    clock_ = ImuClock(kGapFactor);
+    fed_.clear();
+    corrected_.clear();
+    std::vector<Stamped> samples = evenSamples(100.0, 32.0);
+    samples.erase(samples.begin() + 3000);
+    for (Stamped& sample : samples) {
+      sample.stamp_s += uniform(random);
+    }
+    feed(samples);
+    EXPECT_GE(clock_.faults().lost, 1U) << seed;
+    EXPECT_LT(clock_.faults().scatter_s, 0.01) << seed;
+    EXPECT_LT(std::abs(errors().back() - errors().front()), 1e-3) << seed;
+  }
+}
+
 TEST_F(ImuClockTest, FollowsADeviceWhoseClockDrifts) {
   constexpr double kDrift = 2e-4;
   std::mt19937 random(7);

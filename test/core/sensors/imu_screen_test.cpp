@@ -35,7 +35,7 @@ TEST(ImuScreen, RegularSamplesAreAccepted) {
   ImuScreen screen = running();
   const ImuScreen::Result result = screen.check(sampleAt(0.021));
   EXPECT_EQ(result.verdict, ImuVerdict::kAccepted);
-  EXPECT_NEAR(result.duration_s, 0.021, 1e-9);
+  EXPECT_NEAR(result.interval.duration_s, 0.021, 1e-9);
   EXPECT_EQ(result.gap_s, 0.0);
   EXPECT_EQ(screen.newestStamp(), sampleAt(0.021).stamp);
 }
@@ -56,7 +56,7 @@ TEST(ImuScreen, ASensorThatSaysTheSameOnAllAxesIsFrozenUntilOneMoves) {
 TEST(ImuScreen, TheFirstSampleHasNoInterval) {
   ImuScreen screen(params());
   EXPECT_EQ(screen.newestStamp(), 0);
-  EXPECT_EQ(screen.check(sampleAt(0.0)).duration_s, 0.0);
+  EXPECT_EQ(screen.check(sampleAt(0.0)).interval.duration_s, 0.0);
 }
 
 TEST(ImuScreen, BadNumbersAreRefusedAndLeaveNoTrace) {
@@ -119,9 +119,21 @@ TEST(ImuScreen, RepeatedAndSlightlyOlderSamplesAreRefused) {
   EXPECT_EQ(screen.check(sampleAt(0.0)).verdict, ImuVerdict::kNotNewer);
   EXPECT_EQ(screen.check(sampleAt(-0.02)).verdict, ImuVerdict::kNotNewer);
   EXPECT_EQ(screen.check(sampleAt(-0.999)).verdict, ImuVerdict::kNotNewer);
-  EXPECT_EQ(screen.check(sampleAt(-1.0)).verdict, ImuVerdict::kTimeWentBack);
-  EXPECT_EQ(screen.check(sampleAt(-500.0)).verdict, ImuVerdict::kTimeWentBack);
   EXPECT_EQ(screen.newestStamp(), kStart);
+  EXPECT_EQ(screen.restarts(), 0U);
+}
+
+/// What a source says after a restart does not follow from anything before it.
+TEST(ImuScreen, ASourceThatHasRestartedStartsOver) {
+  ImuScreen screen = running();
+  const ImuScreen::Result first = screen.check(sampleAt(-1.0));
+  EXPECT_EQ(first.verdict, ImuVerdict::kTimeWentBack);
+  EXPECT_TRUE(isAccepted(first.verdict));
+  EXPECT_EQ(first.interval.duration_s, 0.0);
+  EXPECT_EQ(screen.newestStamp(), sampleAt(-1.0).stamp);
+  EXPECT_EQ(screen.check(sampleAt(-0.5)).verdict, ImuVerdict::kAccepted);  // any first interval is the usual one
+  EXPECT_EQ(screen.check(sampleAt(-500.0)).verdict, ImuVerdict::kTimeWentBack);
+  EXPECT_EQ(screen.restarts(), 2U);
 }
 
 TEST(ImuScreen, GapsAreMeasuredAgainstTheUsualInterval) {
@@ -131,7 +143,7 @@ TEST(ImuScreen, GapsAreMeasuredAgainstTheUsualInterval) {
   ImuScreen other = running();
   const ImuScreen::Result gap = other.check(sampleAt(0.1));
   EXPECT_EQ(gap.verdict, ImuVerdict::kAfterGap);
-  EXPECT_NEAR(gap.duration_s, 0.1, 1e-9);
+  EXPECT_NEAR(gap.interval.duration_s, 0.1, 1e-9);
   EXPECT_NEAR(gap.gap_s, 0.08, 1e-9);
   // the gap does not become the usual interval
   EXPECT_EQ(other.check(sampleAt(0.2)).verdict, ImuVerdict::kAfterGap);
@@ -147,10 +159,11 @@ TEST(ImuScreen, ResetForgets) {
 
 TEST(ImuScreen, EveryRefusalHasItsWords) {
   for (const ImuVerdict verdict :
-       {ImuVerdict::kNotFinite, ImuVerdict::kOutOfRange, ImuVerdict::kNotNewer, ImuVerdict::kTimeWentBack}) {
+       {ImuVerdict::kNotFinite, ImuVerdict::kOutOfRange, ImuVerdict::kStuck, ImuVerdict::kNotNewer}) {
     EXPECT_FALSE(isAccepted(verdict));
     EXPECT_STRNE(complaintOf(verdict), "");
   }
+  EXPECT_STRNE(complaintOf(ImuVerdict::kTimeWentBack), "");
   for (const ImuVerdict verdict : {ImuVerdict::kAccepted, ImuVerdict::kAfterGap}) {
     EXPECT_TRUE(isAccepted(verdict));
     EXPECT_STREQ(complaintOf(verdict), "");

@@ -1,4 +1,4 @@
-#include "core/slip/slip_ratio.h"
+#include "core/slip/vehicle_slip.h"
 
 #include <gtest/gtest.h>
 

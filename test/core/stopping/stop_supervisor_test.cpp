@@ -1,8 +1,6 @@
-/// The course of a stop: when it comes, how it slows the rover down, when the hold ends.
+/// The course of a stop: how it slows the rover down, when the hold ends.
 
 #include <gtest/gtest.h>
-
-#include <string>
 
 #include "supervisor_rig.h"
 
@@ -52,17 +50,6 @@ TEST(StopSupervisor, StopsInTimeToStandWhenTheThresholdIsReached) {
   rig.moving();
   EXPECT_EQ(rig.state(), kS);
   EXPECT_EQ(rig.supervisor.status().reason, "the position error reaches its threshold");
-}
-
-TEST(StopSupervisor, ANewForecastMovesTheCountdown) {
-  Rig rig("active");
-  driveTenSeconds(rig);
-  rig.forecast(5.0);
-  rig.moving();
-  rig.forecast(9.0);
-  EXPECT_NEAR(rig.supervisor.status().time_left_s, 9.0 - kSpeed_mps / 0.5, 1e-6);
-  rig.forecast(kInfinity);
-  EXPECT_EQ(rig.supervisor.status().time_left_s, kInfinity);
 }
 
 TEST(StopSupervisor, AHoldEndsWithConvergence) {
@@ -140,25 +127,6 @@ TEST(StopSupervisor, TimeThatPassedWithoutEstimatesCountsWhenTheyComeBack) {
   EXPECT_EQ(rig.state(), kD) << "6 s after it began";
 }
 
-TEST(StopSupervisor, TheCountdownIsAlwaysFinite) {
-  Rig rig("advise");
-  EXPECT_FALSE(rig.supervisor.countdown_s().has_value()) << "nothing is known";
-  driveTenSeconds(rig);
-  EXPECT_EQ(rig.supervisor.countdown_s(), 60.0) << "no stop is due";
-  rig.forecast(6.0);
-  EXPECT_NEAR(*rig.supervisor.countdown_s(), 6.0 - kSpeed_mps / 0.5, 1e-6);
-  rig.forecast(0.0);
-  EXPECT_EQ(rig.supervisor.countdown_s(), 0.0);
-  rig.supervisor.setOverride(true);
-  EXPECT_EQ(rig.supervisor.countdown_s(), 60.0) << "whoever counts must not stop the rover";
-  rig.supervisor.setEmergencyStop(true);
-  EXPECT_EQ(rig.supervisor.countdown_s(), 0.0);
-  rig.supervisor.retune(Rig::paramsOf("off", 3.0));
-  EXPECT_EQ(rig.supervisor.countdown_s(), 0.0) << "in every mode";
-  rig.supervisor.setEmergencyStop(false);
-  EXPECT_FALSE(rig.supervisor.countdown_s().has_value());
-}
-
 TEST(StopSupervisor, OnlyWheelSamplesBringZeroUpdates) {
   Rig rig("active");
   situations()[4].reach(rig);
@@ -183,76 +151,6 @@ TEST(StopSupervisor, AHoldEndsAtItsLimit) {
     rig.moving();
     EXPECT_GT(rig.drive().linear_mps.x(), 0.0);
   }
-}
-
-TEST(StopSupervisor, AfterAStopTheOldForecastIsVoidAndThereIsTimeToDrive) {
-  Rig rig("active");
-  situations()[4].reach(rig);
-  rig.during(1.0, [&rig] { rig.standing(1e-5); });
-  EXPECT_EQ(rig.supervisor.status().reason, "no forecast since the last stop");
-  rig.forecast(0.0);  // the threshold is below what one meter costs
-  EXPECT_EQ(rig.state(), kC);
-  rig.during(4.6, [&rig] { rig.moving(); });
-  EXPECT_EQ(rig.state(), kC);
-  rig.during(0.2, [&rig] { rig.moving(); });
-  EXPECT_EQ(rig.state(), kS);
-}
-
-TEST(StopSupervisor, StaleForecastsMakeStopsPeriodic) {
-  Rig rig("active");
-  rig.during(5.0, [&rig] { rig.moving(); });
-  EXPECT_EQ(rig.supervisor.status().reason, "no forecast since the last stop");
-  rig.during(0.2, [&rig] { rig.moving(); });
-  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
-  EXPECT_EQ(rig.supervisor.status().reason, "no new forecast: periodic stop");
-  EXPECT_EQ(rig.state(), kC);
-  rig.during(5.0, [&rig] { rig.moving(); });
-  EXPECT_EQ(rig.state(), kC);
-  rig.during(0.4, [&rig] { rig.moving(); });
-  EXPECT_EQ(rig.state(), kS) << "12 s less the time to slow down";
-  rig.during(1.0, [&rig] { rig.standing(1e-5); });
-  rig.forecast(kInfinity);
-  EXPECT_FALSE(rig.supervisor.status().forecasts_stale);
-  EXPECT_EQ(rig.state(), kD);
-}
-
-TEST(StopSupervisor, ForecastThatIsKeptIsNotStaleBeforeItsStop) {
-  Rig rig("active");
-  driveTenSeconds(rig);
-  rig.forecast(30.0, 30.0);
-  rig.during(28.3, [&rig] { rig.moving(); });
-  EXPECT_FALSE(rig.supervisor.status().forecasts_stale);
-  EXPECT_EQ(rig.state(), kC);
-  rig.during(0.2, [&rig] { rig.moving(); });
-  EXPECT_EQ(rig.state(), kS) << "30 s less the time to slow down";
-  EXPECT_EQ(rig.supervisor.status().reason, "the position error reaches its threshold");
-}
-
-TEST(StopSupervisor, ForecastIsKeptNoLongerThanItSaysNorPastAStandstill) {
-  Rig rig("advise");
-  driveTenSeconds(rig);
-  rig.forecast(kInfinity, 10.0);
-  rig.during(15.0, [&rig] { rig.moving(); });
-  EXPECT_FALSE(rig.supervisor.status().forecasts_stale);
-  rig.during(0.2, [&rig] { rig.moving(); });
-  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
-  rig.forecast(kInfinity, 1000.0);
-  rig.during(2.0, [&rig] { rig.standing(1e-5); });
-  rig.during(5.2, [&rig] { rig.moving(); });
-  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
-  rig.forecast(kInfinity, std::nan(""));
-  rig.during(5.2, [&rig] { rig.moving(); });
-  EXPECT_TRUE(rig.supervisor.status().forecasts_stale);
-}
-
-TEST(StopSupervisor, AStandstillOfTheOperatorsOwnCountsForThePeriod) {
-  Rig rig("active");
-  rig.during(9.0, [&rig] { rig.moving(); });
-  rig.during(30.0, [&rig] { rig.standing(1e-5); });
-  EXPECT_EQ(rig.state(), kD);
-  EXPECT_EQ(rig.supervisor.status().stops, 0U);
-  rig.during(10.0, [&rig] { rig.moving(); });
-  EXPECT_EQ(rig.state(), kC);
 }
 
 TEST(StopSupervisor, ASlidingRoverIsNotHeld) {
@@ -301,56 +199,6 @@ TEST(StopSupervisor, AdviceStandsUntilItIsFollowed) {
   EXPECT_EQ(rig.state(), kH);
   rig.moving();
   EXPECT_EQ(rig.supervisor.status().reason, "resumed before the velocity had converged");
-}
-
-TEST(StopSupervisor, OtherTimesHoldFromTheNextEstimateOn) {
-  Rig rig("active");
-  driveTenSeconds(rig);
-  rig.forecast(6.0);
-  ASSERT_EQ(rig.state(), kC);
-  StopParams params = Rig::paramsOf("active", 3.0);
-  params.countdown_s = 1.0;
-  rig.supervisor.retune(params);
-  EXPECT_EQ(rig.state(), kC);
-  rig.moving();
-  EXPECT_EQ(rig.state(), kD);
-}
-
-TEST(StopSupervisor, AnotherDecelerationHoldsInTheStopThatIsUnderWay) {
-  Rig rig("active");
-  situations()[3].reach(rig);
-  StopParams params = Rig::paramsOf("active", 3.0);
-  params.deceleration_mps2 = 1.0;
-  rig.supervisor.retune(params);
-  rig.drive();
-  rig.moving();
-  EXPECT_NEAR(rig.drive().linear_mps.x(), kSpeed_mps - 1.0 * toSeconds(kInterval), 1e-9);
-}
-
-TEST(StopSupervisor, AnotherModeEndsAStopAndHoldsAtOnce) {
-  for (const Situation& situation : situations()) {
-    Rig rig("active");
-    situation.reach(rig);
-    rig.supervisor.retune(Rig::paramsOf("advise", 3.0));
-    EXPECT_EQ(rig.supervisor.mode(), StopMode::kAdvise);
-    EXPECT_LT(rig.state(), kS) << situation.name;
-    EXPECT_TRUE(equal(rig.drive(), driveOn())) << situation.name;
-    rig.supervisor.retune(Rig::paramsOf("off", 3.0));
-    EXPECT_EQ(rig.supervisor.status().reason, "the supervisor is off") << situation.name;
-    EXPECT_TRUE(equal(rig.drive(), driveOn())) << situation.name;
-  }
-}
-
-TEST(StopSupervisor, OneThatBecomesActiveStopsTheRover) {
-  Rig rig("off");
-  driveTenSeconds(rig);
-  rig.forecast(0.0);
-  ASSERT_EQ(rig.state(), kD);
-  rig.supervisor.retune(Rig::paramsOf("active", 3.0));
-  rig.forecast(0.0);
-  EXPECT_EQ(rig.state(), kS);
-  rig.during(1.0, [&rig] { rig.moving(); });
-  EXPECT_LT(rig.drive().linear_mps.x(), kSpeed_mps);
 }
 
 TEST(StopSupervisor, SaysWhyItCannotStopNow) {

@@ -143,6 +143,23 @@ TEST(BagInspection, FilesThatAreNoRecordingsAreNamed) {
   }
 }
 
+TEST(BagInspection, NamesRowsOfASolutionThatHoldNone) {
+  const std::string path = ::testing::TempDir() + "slipnav_unsolved.pos";
+  std::ofstream(path) << "% (lat/lon/height=WGS84/ellipsoidal,Q=1:fix)\n"
+                         "%  UTC latitude(deg) longitude(deg) height(m) Q ns sdn(m) sde(m) sdu(m) sdne(m) sdeu(m) "
+                         "sdun(m) age(s) ratio\n"
+                         "2026/01/01 00:00:00.000 39.7 -79.9 250.0 1 9 0.01 0.01 0.02 0 0 0 0 9\n"
+                         "2026/01/01 00:00:00.100 39.7 -79.9 250.0 0 9 0.01 0.01 0.02 0 0 0 0 9\n"
+                         "2026/01/01 00:00:00.200 39.7 -79.9 250.0 1 9 0.01 0.01 0.02 0 0 0 0 9\n";
+  Recording recording = readRecording({simulatedDrive()});
+  addRtklibFile(path, recording);
+  EXPECT_EQ(recording.fixes.back().samples.size(), 2U);
+  InspectionOptions options;
+  options.truth = path;
+  const std::string found = toText(inspect(recording, options).findings);
+  EXPECT_NE(found.find("1 row of quality 0, without a solution"), std::string::npos) << found;
+}
+
 TEST(BagInspection, FoldersAreNoRecordings) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "slipnav_ros2_drive";
   std::filesystem::create_directory(folder);

@@ -52,6 +52,14 @@ TEST_F(LegacyMessagesTest, Positions) {
   EXPECT_EQ(messages_.enu(state_).header.stamp, state_.header.stamp);
 }
 
+TEST_F(LegacyMessagesTest, PlanetFixedCoordinatesAreRoundedOnlyOnce) {
+  state_.latitude_deg = 39.482;
+  state_.longitude_deg = -79.963;
+  state_.height_m = 300.0;
+  expectPoint(messages_.ecef(state_),
+              {859169.79842317791, -4854261.2046229439, 4033952.0193236638});  // computed with 34 digits
+}
+
 TEST_F(LegacyMessagesTest, VelocityIsNorthEastDown) { expectPoint(messages_.velocity(state_), {0.2, 0.1, -0.3}); }
 
 TEST_F(LegacyMessagesTest, AttitudeIsThatOfForwardRightDown) {

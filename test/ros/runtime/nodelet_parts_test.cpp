@@ -3,64 +3,22 @@
 #include <gtest/gtest.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <functional>
+#include <optional>
 #include <vector>
 
-#include "core/navigation/continuous_wheels.h"
-#include "core/navigation/look_ahead.h"
-#include "core/navigation/patience.h"
-#include "core/navigation/wheel_sessions.h"
+#include "core/navigation/mechanization_limit.h"
+#include "core/navigation/settled_stamp.h"
+#include "core/navigation/wheel_backlog.h"
+#include "core/ordering/following_sequence.h"
 #include "ros/messages/internal_messages.h"
 #include "ros/runtime/parameters.h"
 
 namespace slipnav {
 namespace {
 
-InsStep stepTo(Nanoseconds end) {
-  InsStep step;
-  step.state.stamp = end;
-  return step;
-}
-
-std::vector<Nanoseconds> released(StepGate& gate, Nanoseconds newest_wheels, double now_s) {
-  std::vector<Nanoseconds> ends;
-  gate.release(newest_wheels, now_s, [&ends](const InsStep& step) { ends.push_back(step.state.stamp); });
-  return ends;
-}
-
-TEST(StepGate, LetsStepsGoThatNoSilenceCanDecide) {
-  StepGate gate(1.0);
-  gate.push(stepTo(10 * kSecond), 0.0);
-  gate.push(stepTo(11 * kSecond), 0.0);
-  EXPECT_EQ(released(gate, 9 * kSecond + 1, 0.0), std::vector<Nanoseconds>{10 * kSecond});
-  EXPECT_EQ(released(gate, 10 * kSecond + 1, 0.0), std::vector<Nanoseconds>{11 * kSecond});
-}
-
-TEST(StepGate, LetsStepsGoAfterTheSilenceHasLasted) {
-  StepGate gate(1.0);
-  gate.push(stepTo(10 * kSecond), 5.0);
-  EXPECT_TRUE(released(gate, 0, 5.0 + 0.9 * kPatience_s).empty());
-  EXPECT_EQ(released(gate, 0, 5.0 + 1.1 * kPatience_s).size(), 1U);
-}
-
-TEST(StepGate, StepsThatComeAgainNeedNotWaitAgain) {
-  StepGate gate(1.0);
-  gate.push(stepTo(10 * kSecond), 5.0);
-  gate.clear();
-  gate.push(stepTo(10 * kSecond), 5.0 + 1.1 * kPatience_s);
-  EXPECT_EQ(released(gate, 0, 5.0 + 1.1 * kPatience_s).size(), 1U);
-  gate.restart();
-  gate.push(stepTo(10 * kSecond), 6.0);
-  EXPECT_TRUE(released(gate, 0, 6.0).empty());
-}
-
-TEST(StepGate, HoldsNothingWhereWheelsAreNotUsed) {
-  StepGate gate(std::nullopt);
-  gate.push(stepTo(10 * kSecond), 0.0);
-  EXPECT_EQ(released(gate, 0, 0.0).size(), 1U);
-}
-
-TEST(TrustedStamp, FollowsByThePatience) {
-  TrustedStamp trusted;
+TEST(SettledStamp, FollowsByThePatience) {
+  SettledStamp trusted;
   trusted.push(10 * kSecond, 1.0);
   trusted.push(11 * kSecond, 1.5);
   EXPECT_EQ(trusted.at(1.0), 0);
@@ -68,24 +26,16 @@ TEST(TrustedStamp, FollowsByThePatience) {
   EXPECT_EQ(trusted.at(1.75), 11 * kSecond);
 }
 
-TEST(StepGate, IsAsPatientAfterARestartAsBefore) {
-  StepGate gate(1.0, kSimulatedPatience_s);
-  gate.restart();
-  gate.push(stepTo(10 * kSecond), 5.0);
-  EXPECT_TRUE(released(gate, 0, 5.0 + 0.9 * kSimulatedPatience_s).empty());
-  EXPECT_EQ(released(gate, 0, 5.0 + 1.1 * kSimulatedPatience_s).size(), 1U);
-}
-
-TEST(TrustedStamp, BeginsAnewWhenTheClockGoesBack) {
-  TrustedStamp trusted;
+TEST(SettledStamp, BeginsAnewWhenTheClockGoesBack) {
+  SettledStamp trusted;
   trusted.push(10 * kSecond, 1.0);
   EXPECT_EQ(trusted.at(2.0), 10 * kSecond);
   trusted.push(1 * kSecond, 2.0);
   EXPECT_EQ(trusted.at(2.0), 0);
 }
 
-TEST(LookAhead, GoesToTheNextKnownWheelSampleOnly) {
-  LookAhead ahead(1.0);
+TEST(MechanizationLimit, GoesToTheNextKnownWheelSampleOnly) {
+  MechanizationLimit ahead(1.0);
   ahead.restart(10 * kSecond);
   ahead.addWheels(11 * kSecond);
   ahead.addWheels(12 * kSecond);
@@ -95,8 +45,8 @@ TEST(LookAhead, GoesToTheNextKnownWheelSampleOnly) {
   EXPECT_EQ(ahead.runUntil(), 12 * kSecond);
 }
 
-TEST(LookAhead, GoesFarEnoughToTellThatWheelsAreSilent) {
-  LookAhead ahead(1.0);
+TEST(MechanizationLimit, GoesFarEnoughToTellThatWheelsAreSilent) {
+  MechanizationLimit ahead(1.0);
   ahead.restart(10 * kSecond);
   EXPECT_GT(ahead.runUntil(), 11 * kSecond);
   // A wheel sample is known, but the step that holds it is not yet certain: more steps are needed to tell.
@@ -108,8 +58,8 @@ TEST(LookAhead, GoesFarEnoughToTellThatWheelsAreSilent) {
   EXPECT_GT(ahead.runUntil(), 11 * kSecond);
 }
 
-TEST(LookAhead, GoesBeyondAStepThatIsLongerThanItsWindow) {
-  LookAhead ahead(1.0);
+TEST(MechanizationLimit, GoesBeyondAStepThatIsLongerThanItsWindow) {
+  MechanizationLimit ahead(1.0);
   ahead.restart(10 * kSecond);
   ahead.told(ahead.runUntil());
   ahead.addStep(20 * kSecond);
@@ -126,50 +76,96 @@ WheelMotion wheelsAt(Nanoseconds stamp) {
   return wheels;
 }
 
-TEST(WheelSessions, KeepsSamplesUntilTheInitialStateComes) {
-  WheelSessions sessions;
-  EXPECT_TRUE(sessions.push(wheelsAt(10 * kSecond)).empty());
-  EXPECT_EQ(sessions.startNext().size(), 1U);
-  EXPECT_EQ(sessions.push(wheelsAt(11 * kSecond)).size(), 1U);
-}
+/// Sessions, and how many samples they have passed on.
+struct Sessions {
+  void push(Nanoseconds stamp) { sessions.push(wheelsAt(stamp), count); }
+  void startNext() { sessions.startNext(count); }
 
-TEST(WheelSessions, AfterARestartSamplesWaitForTheNextInitialState) {
-  WheelSessions sessions;
+  WheelBacklog sessions;
+  int passed = 0;
+  std::function<void(const WheelMotion&)> count = [this](const WheelMotion&) { ++passed; };
+};
+
+TEST(WheelBacklog, KeepsSamplesUntilTheInitialStateComes) {
+  Sessions sessions;
+  sessions.push(10 * kSecond);
+  EXPECT_EQ(sessions.passed, 0);
   sessions.startNext();
-  sessions.push(wheelsAt(100 * kSecond));
-  EXPECT_TRUE(sessions.push(wheelsAt(1 * kSecond)).empty());
-  EXPECT_TRUE(sessions.push(wheelsAt(2 * kSecond)).empty());
-  EXPECT_EQ(sessions.startNext().size(), 2U);
+  EXPECT_EQ(sessions.passed, 1);
+  sessions.push(11 * kSecond);
+  EXPECT_EQ(sessions.passed, 2);
 }
 
-TEST(WheelSessions, LateSamplesOfTheSessionBeforeAreLeftOut) {
-  WheelSessions sessions;
+TEST(WheelBacklog, AfterARestartSamplesWaitForTheNextInitialState) {
+  Sessions sessions;
   sessions.startNext();
-  sessions.push(wheelsAt(100 * kSecond));
-  EXPECT_TRUE(sessions.startNext().empty());  // the clock of the others went back already
-  EXPECT_TRUE(sessions.push(wheelsAt(101 * kSecond)).empty());
-  EXPECT_EQ(sessions.push(wheelsAt(1 * kSecond)).size(), 1U);
+  sessions.push(100 * kSecond);
+  sessions.push(1 * kSecond);
+  sessions.push(2 * kSecond);
+  EXPECT_EQ(sessions.passed, 1);
+  sessions.startNext();
+  EXPECT_EQ(sessions.passed, 3);
 }
 
-TEST(ContinuousWheels, WaitForTheStepOfTheClockToBeTold) {
-  ContinuousWheels wheels;
-  wheels.push(wheelsAt(50 * kSecond));
-  EXPECT_EQ(wheels.push(wheelsAt(100 * kSecond)).size(), 1U);
-  EXPECT_TRUE(wheels.push(wheelsAt(95 * kSecond)).empty());
-  const std::vector<WheelMotion> known = wheels.learn(ContinuousTime({{100 * kSecond + 1, 5 * kSecond + 1}}));
-  ASSERT_EQ(known.size(), 1U);
-  EXPECT_EQ(known.front().stamp, 100 * kSecond + 1);
-  EXPECT_EQ(wheels.push(wheelsAt(96 * kSecond)).front().stamp, 101 * kSecond + 1);
-  EXPECT_EQ(wheels.push(wheelsAt(3 * kSecond)).front().stamp, 3 * kSecond);  // a clock that has restarted
+TEST(WheelBacklog, LateSamplesOfTheSessionBeforeAreLeftOut) {
+  Sessions sessions;
+  sessions.startNext();
+  sessions.push(100 * kSecond);
+  sessions.startNext();  // the clock of the others went back already
+  sessions.push(101 * kSecond);
+  EXPECT_EQ(sessions.passed, 1);
+  sessions.push(1 * kSecond);
+  EXPECT_EQ(sessions.passed, 2);
 }
 
-TEST(ContinuousWheels, DoNotWaitForAMechanisationThatHasForgottenIt) {
-  ContinuousWheels wheels;
-  wheels.push(wheelsAt(50 * kSecond));
-  wheels.push(wheelsAt(100 * kSecond));
-  wheels.push(wheelsAt(95 * kSecond));
-  wheels.recount();
-  EXPECT_EQ(wheels.push(wheelsAt(96 * kSecond)).size(), 1U);
+/// Wheels on their way, and the stamps of those that got through since the last look.
+struct Wheels {
+  std::vector<Nanoseconds> push(Nanoseconds stamp) {
+    passed.clear();
+    sequence.push(wheelsAt(stamp), note);
+    return passed;
+  }
+
+  FollowingSequence<WheelMotion> sequence;
+  std::vector<Nanoseconds> passed;
+  std::function<void(const WheelMotion&)> note = [this](const WheelMotion& wheels) { passed.push_back(wheels.stamp); };
+};
+
+using Stamps = std::vector<Nanoseconds>;
+
+TEST(FollowingSequence, WaitsForTheStepOfTheClockToBeTold) {
+  Wheels wheels;
+  wheels.push(50 * kSecond);
+  wheels.push(100 * kSecond - 1);  // a wrong stamp, or a gap
+  EXPECT_EQ(wheels.push(100 * kSecond), (Stamps{100 * kSecond - 1, 100 * kSecond}));
+  EXPECT_EQ(wheels.push(95 * kSecond), Stamps{});  // a wrong stamp, or a step
+  EXPECT_EQ(wheels.push(95 * kSecond + 1), Stamps{});
+  wheels.passed.clear();
+  const ContinuousTime time({{100 * kSecond + 1, 5 * kSecond + 1}});
+  EXPECT_TRUE(wheels.sequence.learn(time, wheels.note));
+  EXPECT_EQ(wheels.passed, (Stamps{100 * kSecond + 1, 100 * kSecond + 2}));
+  EXPECT_FALSE(wheels.sequence.learn(time, wheels.note));
+  EXPECT_EQ(wheels.push(95 * kSecond + 2), Stamps{100 * kSecond + 3});
+  wheels.push(3 * kSecond);
+  EXPECT_EQ(wheels.push(3 * kSecond + 1), (Stamps{3 * kSecond, 3 * kSecond + 1}));  // a clock that has restarted
+}
+
+TEST(FollowingSequence, DoesNotWaitForAMechanizationThatHasForgottenIt) {
+  Wheels wheels;
+  for (const Nanoseconds stamp : {50 * kSecond, 100 * kSecond - 1, 100 * kSecond, 95 * kSecond}) {
+    wheels.push(stamp);
+  }
+  EXPECT_EQ(wheels.push(95 * kSecond + 1), Stamps{});
+  wheels.sequence.recount();
+  EXPECT_EQ(wheels.push(95 * kSecond + 2), Stamps{95 * kSecond + 2});
+}
+
+TEST(FollowingSequence, DropsASingleWrongStamp) {
+  Wheels wheels;
+  wheels.push(100 * kSecond);
+  wheels.push(200 * kSecond);
+  EXPECT_EQ(wheels.push(100 * kSecond + 1), Stamps{100 * kSecond + 1});
+  EXPECT_EQ(wheels.sequence.leftOut(), 1U);
 }
 
 TEST(InternalMessages, StepsOfTheClockAreKept) {
@@ -204,9 +200,8 @@ void expectEqual(const NavigationState& a, const NavigationState& b) {
 }
 
 TEST(InternalMessages, StepsSurvive) {
-  const InsStep step{42, 7, 1'599'999'999'000'000'001, someState(), {1.5, 2.5, 3.5}, {4.5, 5.5, 6.5}, 0.25};
+  const InsStep step{7, 1'599'999'999'000'000'001, someState(), {1.5, 2.5, 3.5}, {4.5, 5.5, 6.5}, 0.25};
   const InsStep back = fromMessage(toMessage(step), step.epoch);
-  EXPECT_EQ(back.sequence, step.sequence);
   EXPECT_EQ(back.epoch, step.epoch);
   EXPECT_EQ(back.start, step.start);
   expectEqual(back.state, step.state);
@@ -215,18 +210,23 @@ TEST(InternalMessages, StepsSurvive) {
   EXPECT_EQ(back.gap_s, step.gap_s);
 }
 
-TEST(InternalMessages, InitialStatesSurvive) {
-  InitialState initial;
+TEST(InternalMessages, StartsSurvive) {
+  Start start{3, 2, InitialState()};
+  InitialState& initial = *start.state;
   initial.nav = someState();
   initial.vehicle = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
   for (int i = 0; i < kErrorStates * kErrorStates; ++i) {
     initial.P(i / kErrorStates, i % kErrorStates) = i;
   }
   initial.origin = {0.7, 0.8, 9.0};
-  initial.tremor_variance = 1.25;
+  initial.standstill_variance = 1.25;
   StartState message;
-  fill(initial, message);
-  const InitialState back = fromMessage(message);
+  fill(start, message);
+  const Start received = fromMessage(message);
+  EXPECT_EQ(received.number, 3U);
+  EXPECT_EQ(received.session, 2U);
+  ASSERT_TRUE(received.state.has_value());
+  const InitialState& back = *received.state;
   expectEqual(back.nav, initial.nav);
   EXPECT_EQ(back.vehicle.wheel_scale, 0.1);
   EXPECT_EQ(back.vehicle.slow_slip, 0.2);
@@ -238,17 +238,31 @@ TEST(InternalMessages, InitialStatesSurvive) {
   EXPECT_EQ(back.origin.latitude_rad, 0.7);
   EXPECT_EQ(back.origin.longitude_rad, 0.8);
   EXPECT_EQ(back.origin.height_m, 9.0);
-  EXPECT_EQ(back.tremor_variance, 1.25);
+  EXPECT_EQ(back.standstill_variance, 1.25);
 }
 
-TEST(InternalMessages, CorrectionsSurvive) {
+TEST(InternalMessages, AnEndSurvives) {
+  StartState message;
+  fill(Start{3, 2, std::nullopt}, message);
+  const Start back = fromMessage(message);
+  EXPECT_EQ(back.number, 3U);
+  EXPECT_EQ(back.session, 2U);
+  EXPECT_FALSE(back.state.has_value());
+}
+
+TEST(InternalMessages, RepliesSurvive) {
   FilterCorrection message;
-  fill(Correction{42, 7, someState()}, message);
-  EXPECT_TRUE(message.corrects);
-  const Correction back = fromMessage(message);
-  EXPECT_EQ(back.sequence, 42U);
-  EXPECT_EQ(back.epoch, 7U);
-  expectEqual(back.state, someState());
+  fill(Reply{5, Correction{7, someState()}, 1'600'000'001'000'000'001}, message);
+  const Reply back = fromMessage(message);
+  EXPECT_EQ(back.start, 5U);
+  EXPECT_EQ(back.run_until, 1'600'000'001'000'000'001);
+  ASSERT_TRUE(back.correction.has_value());
+  EXPECT_EQ(back.correction->epoch, 7U);
+  expectEqual(back.correction->state, someState());
+
+  FilterCorrection without;
+  fill(Reply{5, std::nullopt, 1}, without);
+  EXPECT_FALSE(fromMessage(without).correction.has_value());
 }
 
 TEST(Parameters, TopicsThatRosSplitAtTheirSlashesComeTogetherAgain) {

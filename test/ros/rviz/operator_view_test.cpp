@@ -27,6 +27,7 @@ TEST_F(OperatorViewTest, EveryState) {
   EXPECT_EQ(view_.picture(0.0).state, "DRIVING");
   EXPECT_EQ(view_.picture(0.0).countdown, "stop in 34 s");
   EXPECT_EQ(view_.picture(0.0).reason, "why");
+  EXPECT_EQ(view_.picture(0.0).mode, StopStatus::MODE_ACTIVE);
   view_.take(stopAt(StopStatus::COUNTING_DOWN, 4.0), 0.0);
   EXPECT_EQ(view_.picture(0.0).state, "STOP AHEAD");
   view_.take(stopAt(StopStatus::STOPPING, 0.0), 0.0);
@@ -75,12 +76,29 @@ TEST_F(OperatorViewTest, TheStartSaysWhatItWaitsFor) {
   Initialization start;
   start.progress = "waiting for gps/fix";
   view_.take(start, 0.0);
+  EXPECT_FALSE(view_.picture(0.0).mode.has_value()) << "nobody has said it";
   view_.take(stopAt(StopStatus::DRIVING), 100.0);
   EXPECT_EQ(view_.picture(100.0).state, "START");
   EXPECT_EQ(view_.picture(100.0).reason, "waiting for gps/fix");
   start.done = 1;
   view_.take(start, 100.0);
   EXPECT_EQ(view_.picture(100.0).state, "DRIVING");
+}
+
+/// Its progress is latched: it stays when the process that wrote it has ended.
+TEST_F(OperatorViewTest, AStartEndsWithItsNodelet) {
+  Initialization start;
+  start.progress = "waiting for a standstill";
+  view_.take(start, 0.0);
+  EXPECT_EQ(view_.picture(100.0).state, "START") << "nobody has reported to the diagnostics";
+  diagnostic_msgs::DiagnosticArray array;
+  array.status.resize(1);
+  array.status[0].name = "slipnav_manager: /rover/initializer";
+  view_.take(array, 100.0);
+  EXPECT_EQ(view_.picture(101.0).state, "START");
+  EXPECT_EQ(view_.picture(105.0).state, "NO DATA");
+  view_.take(array, 110.0);
+  EXPECT_EQ(view_.picture(110.0).state, "START");
 }
 
 TEST_F(OperatorViewTest, TheWorstAlarmComesFirstAndSilenceIsOne) {

@@ -51,7 +51,7 @@ class OverlayMessagesTest : public ::testing::Test {
   }
 
   OverlayParams params_;
-  DrivePicture picture_{params_, {}, Vector3::Zero()};
+  DriveView picture_{params_, {}, Vector3::Zero()};
   OverlayMessages messages_;
   OverlayMarkers maker_{params_, "map"};
 };

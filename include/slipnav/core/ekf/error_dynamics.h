@@ -35,19 +35,33 @@ struct VehicleModelParams {
   double side_slip_length_m = 8.0;
   double mount_pitch_std_deg = 0.3;
   double mount_yaw_std_deg = 0.5;
+  double mount_position_std_m = 0.1;
   void visit(ParameterVisitor& v);
 };
 
 /// Discrete transition of one step. Only the navigation rows are dense: biases and vehicle states decay independently.
 struct ErrorTransition {
-  Eigen::Matrix<double, 9, kNavStates> nav;  ///< attitude, velocity, position rows against all navigation states
-  Vector3 attitude_from_yaw_scale;           ///< column of kYawScale in the attitude rows
-  Vector3 velocity_from_yaw_scale;           ///< column of kYawScale in the velocity rows
+  Eigen::Matrix<double, 9, kNavStates> nav;        ///< attitude, velocity, position rows against all navigation states
+  Vector3 attitude_from_yaw_scale;                 ///< column of kYawScale in the attitude rows
+  Vector3 velocity_from_yaw_scale;                 ///< column of kYawScale in the velocity rows
+  Eigen::Matrix<double, 6, 2> motion_from_offset;  ///< columns of kImuOffset in the velocity and position rows
   Eigen::Matrix<double, kErrorStates - 9, 1> decay;  ///< diagonal of the remaining rows
   ErrorVector noise;  ///< diagonal of the continuous noise integrated over the step, Q_c Δt
 
-  /// The whole 22×22 matrix Φ.
+  /// The whole 24×24 matrix Φ.
   ErrorCovariance matrix() const;
+
+  /// Φ X of as many error vectors as X has columns.
+  template <typename Errors>
+  Errors times(const Errors& X) const {
+    Errors product = Errors::Zero(X.rows(), X.cols());
+    product.template topRows<9>() = nav.lazyProduct(X.template topRows<kNavStates>());
+    product.template middleRows<3>(kAttitude) += attitude_from_yaw_scale.lazyProduct(X.row(kYawScale));
+    product.template middleRows<3>(kVelocity) += velocity_from_yaw_scale.lazyProduct(X.row(kYawScale));
+    product.template middleRows<6>(kVelocity) += motion_from_offset.lazyProduct(X.template middleRows<2>(kImuOffset));
+    product.template bottomRows<kErrorStates - 9>() = decay.asDiagonal() * X.template bottomRows<kErrorStates - 9>();
+    return product;
+  }
 };
 
 /// The ground covered in a step, as steady-state variances of the slip states.
@@ -58,7 +72,7 @@ struct GroundStep {
   double side_slip_variance = 0.0;
 };
 
-/// F, Φ and Q of the 22 error states for one planet, IMU and vehicle. Immutable.
+/// F, Φ and Q of the 24 error states for one planet, IMU and vehicle. Immutable.
 class ErrorDynamics {
  public:
   ErrorDynamics(const Planet& planet, const ImuNoiseParams& imu, const VehicleModelParams& vehicle);
@@ -70,8 +84,9 @@ class ErrorDynamics {
   Eigen::Matrix<double, 9, kNavStates> systemMatrix(const NavigationState& middle, const Vector3& f_ib_b) const;
 
   /// Φ to second order and the noise of a step of `duration_s`, linearized at its middle.
+  /// @param rate_change_b by how much the mean rate differs from that of the step before [rad/s]
   ErrorTransition transition(const NavigationState& start, const NavigationState& end, const Vector3& f_ib_b,
-                             const Vector3& omega_ib_b, double duration_s) const;
+                             const Vector3& omega_ib_b, const Vector3& rate_change_b, double duration_s) const;
 
   /// Propagates the slip states over the distance of a step: a Gauss–Markov process of variance σ² and length L
   /// decays by exp(−w/L) over a distance w and keeps σ². Slip belongs to the ground: a rover at rest keeps it.

@@ -24,8 +24,9 @@ enum ErrorIndex : int {
   kSideSlip = 18,    ///< tangent of the angle from the body's x axis to its course over ground; Gauss–Markov
   kMountPitch = 19,  ///< pitch of the IMU's axes against the vehicle's [rad]; constant
   kMountYaw = 20,    ///< yaw of the IMU's axes against the vehicle's [rad]; constant
-  kYawScale = 21,    ///< scale factor error of the gyro about body z; considered, never estimated
-  kErrorStates = 22
+  kImuOffset = 21,   ///< where the IMU is, forward and right of its configured place [m]; constant
+  kYawScale = 23,    ///< scale factor error of the gyro about body z; considered, never estimated
+  kErrorStates = 24
 };
 
 using ErrorVector = Eigen::Matrix<double, kErrorStates, 1>;

@@ -1,6 +1,7 @@
 #pragma once
 /// One measurement update for every model: Joseph form with consider states (Groves 3.2.5; Schmidt 1966).
 
+#include <Eigen/Cholesky>
 #include <optional>
 
 #include "slipnav/core/ekf/error_state.h"
@@ -44,11 +45,17 @@ using KalmanGain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kError
 using InnovationCovariance =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxMeasurementRows, kMaxMeasurementRows>;
 
+/// What an update has used: the gain K = P Hᵀ S⁻¹, and S by its Cholesky factor.
+struct UpdateGain {
+  KalmanGain K;
+  Eigen::LLT<InnovationCovariance> S;
+};
+
 /// Updates P and returns the gain P Hᵀ (H P Hᵀ + R)⁻¹ that was used. Nothing, and P unchanged, if the residual is not
 /// finite or the innovation covariance not positive definite.
 ///
 /// The gain of the consider state kYawScale is zero; the Joseph form holds for any gain.
-std::optional<KalmanGain> updateCovariance(const Measurement& measurement, ErrorCovariance& P);
+std::optional<UpdateGain> updateCovariance(const Measurement& measurement, ErrorCovariance& P);
 
 /// As updateCovariance(), but returns the estimated error, to be removed from the state.
 std::optional<ErrorVector> kalmanUpdate(const Measurement& measurement, ErrorCovariance& P);

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
+#include "slipnav/core/base/ring_queue.h"
 #include "slipnav/core/base/sensors.h"
 #include "slipnav/core/ins/strapdown.h"
 #include "slipnav/core/sensors/imu_screen.h"
@@ -18,8 +18,7 @@ inline constexpr double kLongestGap_s = 60.0;
 
 /// One mechanized IMU interval.
 struct InsStep {
-  std::uint64_t sequence = 0;  ///< counts IMU intervals since the initial state
-  std::uint32_t epoch = 0;     ///< counts corrections; a step of an older epoch is void
+  std::uint32_t epoch = 0;  ///< counts corrections; a step of an older epoch is void
   Nanoseconds start = 0;
   NavigationState state;                 ///< at the end of the interval
   Vector3 f_ib_b = Vector3::Zero();      ///< bias-corrected mean over the interval [m/s²]
@@ -27,28 +26,25 @@ struct InsStep {
   double gap_s = 0.0;                    ///< time without samples inside the interval
 };
 
-/// The state at the end of step `sequence` as the filter corrected it.
+/// The state at the end of a step, which its stamp identifies, as the filter corrected it.
 struct Correction {
-  std::uint64_t sequence = 0;
-  std::uint32_t epoch = 0;  ///< epoch of all steps that follow from it
+  std::uint32_t epoch = 0;  ///< of all steps that follow from it
   NavigationState state;
 };
 
-/// A ring of intervals, with the state at the end of each mechanized one.
+/// The newest intervals, with the state at the end of each mechanized one.
 class InsEngine {
  public:
-  InsEngine(const Planet& planet, const ImuInputParams& params);
-
-  /// Drops everything, the initial state and the samples.
-  void reset();
+  InsEngine(const Planet& planet, const ImuInputParams& params)
+      : strapdown_(planet), screen_(params), params_(params) {}
 
   /// Starts mechanizing from `state`; samples up to its stamp are dropped, later buffered ones are used.
-  void initialise(const NavigationState& state);
-  bool isInitialised() const { return initialised_; }
+  void initialize(const NavigationState& state);
+  bool isInitialized() const { return initialized_; }
   /// Stops mechanizing; samples are buffered for the next initial state.
-  void release() { initialised_ = false; }
+  void release() { initialized_ = false; }
 
-  /// Checks and buffers a sample.
+  /// Checks and buffers a sample. When the source has restarted everything before is dropped, the initial state too.
   ImuVerdict push(const ImuSample& sample);
 
   /// Mechanizes the next buffered interval; nothing if all are done or there is no initial state.
@@ -64,6 +60,8 @@ class InsEngine {
 
   /// Stamp of the newest accepted sample, 0 before the first.
   Nanoseconds newestStamp() const { return screen_.newestStamp(); }
+  /// How often the source has restarted.
+  std::uint32_t restarts() const { return screen_.restarts(); }
   /// All axes of the IMU repeat themselves.
   bool isImuFrozen() const { return screen_.isFrozen(); }
   const Planet& planet() const { return strapdown_.planet(); }
@@ -76,28 +74,18 @@ class InsEngine {
     NavigationState state;  ///< at the end, once mechanized
   };
 
-  Slot& slot(std::uint64_t sequence) { return ring_[sequence & (ring_.size() - 1)]; }
   /// What an IMU measures if the vehicle keeps turning about the vertical as in `interval`, with all else constant.
   ImuInterval steadyTurn(const NavigationState& state, const ImuInterval& interval) const;
   void append(const Slot& slot);
-  void makeRoom();
-  void dropUpTo(Nanoseconds stamp);
 
   Strapdown strapdown_;
   ImuScreen screen_;
-  bool instantaneous_;
-  double gap_factor_;
-  double max_bridged_gap_s_;
-  std::vector<Slot> ring_;   ///< power of two in size; holds [first_, end_)
-  std::uint64_t first_ = 0;  ///< oldest buffered sequence
-  std::uint64_t next_ = 0;   ///< next to be mechanized
-  std::uint64_t end_ = 0;    ///< one past the newest buffered
-  std::uint64_t begin_ = 0;  ///< ring sequence of the step that starts at `initial_`
-  std::uint64_t base_ = 0;   ///< ring sequence counted as step 0; below 0, wrapped, if that was made elsewhere
+  ImuInputParams params_;
+  RingQueue<Slot> slots_;
+  std::size_t next_ = 0;  ///< of `slots_`, to be mechanized; the first one starts at `initial_`
   std::uint32_t epoch_ = 0;
-  bool initialised_ = false;
+  bool initialized_ = false;
   NavigationState initial_;
-  ImuSample newest_;  ///< accepted
 };
 
 }  // namespace slipnav

@@ -4,15 +4,9 @@
 #include "slipnav/core/base/types.h"
 #include "slipnav/core/earth/planet.h"
 #include "slipnav/core/ins/nav_state.h"
+#include "slipnav/core/sensors/imu_interval.h"
 
 namespace slipnav {
-
-/// Mean specific force and angular rate over an interval of known length, as the IMU measured them.
-struct ImuInterval {
-  Vector3 f_ib_b = Vector3::Zero();      ///< [m/s²]
-  Vector3 omega_ib_b = Vector3::Zero();  ///< [rad/s]
-  double duration_s = 0.0;               ///< 0: there is no such interval
-};
 
 /// One step of the mechanization. Stateless.
 class Strapdown {

@@ -44,6 +44,13 @@ struct InitializationParams {
   void visit(ParameterVisitor& v);
 };
 
+/// Everything the navigation is configured with.
+struct NavigationSetup {
+  ImuInputParams imu_input;
+  InitializationParams initialization;
+  FilterSetup filter;
+};
+
 /// Collects samples in order of stamp until there is a start.
 class Initializer {
  public:

@@ -5,19 +5,11 @@
 #include <memory>
 #include <optional>
 
+#include "slipnav/core/ekf/engine/filter_engine.h"
 #include "slipnav/core/navigation/health.h"
 #include "slipnav/core/navigation/initializer.h"
-#include "slipnav/core/navigation/navigator.h"
-#include "slipnav/core/ordering/imu_clock.h"
 
 namespace slipnav {
-
-/// Everything the navigation is configured with.
-struct NavigationSetup {
-  ImuInputParams imu_input;
-  InitializationParams initialization;
-  FilterSetup filter;
-};
 
 /// Input samples and what became of them.
 struct SampleCounts {
@@ -32,6 +24,9 @@ struct SampleCounts {
 class Pipeline {
  public:
   Pipeline(const Planet& planet, const NavigationSetup& setup, FilterEngine::EstimateSink sink);
+  Pipeline(const Pipeline& other);
+  Pipeline(Pipeline&& other) noexcept;
+  ~Pipeline();
 
   /// Passes every innovation of the filter to `sink` from now on.
   void onInnovation(const InnovationSink& sink);
@@ -48,27 +43,23 @@ class Pipeline {
 
   /// Where the estimate started, once it has.
   const std::optional<InitialState>& initial() const { return initial_; }
-  const Initializer& initializer() const { return initializer_; }
-  const FilterEngine& filter() const { return navigator_.filter(); }
+  const Initializer& initializer() const;
+  const FilterEngine& filter() const;
   const SampleCounts& counts() const { return counts_; }
   const HealthMonitor& health() const { return health_; }
 
  private:
-  void use(const ImuSample& sample);
-  void tryToStart();
-  void restart();
+  struct Parts;
 
-  Planet planet_;
-  NavigationSetup setup_;
+  void use(const ImuSample& sample);
+  void takeNews();
+
+  std::unique_ptr<Parts> parts_;
+  bool uses_fixes_;  ///< while driving
   FilterEngine::EstimateSink sink_;
-  ImuClock imu_clock_;
-  Initializer initializer_;
-  Navigator navigator_;
   std::optional<InitialState> initial_;
   SampleCounts counts_;
   HealthMonitor health_;
-  InnovationSink on_innovation_;
-  std::shared_ptr<FilterHistory> history_;
 };
 
 }  // namespace slipnav

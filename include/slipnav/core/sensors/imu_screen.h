@@ -1,13 +1,15 @@
 #pragma once
-/// Tells usable IMU samples from unusable ones. The same samples in the same order give the same verdicts, so that
-/// all listeners of one IMU agree on what has happened.
+/// Tells usable IMU samples from unusable ones, and makes intervals of the usable ones. The same samples in the same
+/// order give the same verdicts, so that all listeners of one IMU agree on what has happened.
 
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include "slipnav/core/base/sensors.h"
 #include "slipnav/core/ordering/usual_interval.h"
 #include "slipnav/core/parameters/parameter_visitor.h"
+#include "slipnav/core/sensors/imu_interval.h"
 
 namespace slipnav {
 
@@ -26,18 +28,16 @@ struct ImuInputParams {
 enum class ImuVerdict {
   kAccepted,
   kAfterGap,      ///< accepted; samples are missing before it
+  kTimeWentBack,  ///< accepted: older by a second or more; the source has restarted, and nothing before it counts
   kNotFinite,     ///< rejected: NaN or infinite
   kOutOfRange,    ///< rejected: at or beyond the limit of the sensor's range
   kStuck,         ///< rejected: one axis has not changed for long while others of its kind do
   kNotNewer,      ///< rejected: repeated stamp, or older than the newest by less than a second
-  kTimeWentBack,  ///< rejected: older by a second or more; the source has restarted
 };
 
-constexpr bool isAccepted(ImuVerdict verdict) {
-  return verdict == ImuVerdict::kAccepted || verdict == ImuVerdict::kAfterGap;
-}
+constexpr bool isAccepted(ImuVerdict verdict) { return verdict <= ImuVerdict::kTimeWentBack; }
 
-/// The verdict in words, "" for an accepted sample.
+/// The verdict in words, "" for a sample that continues from its predecessors.
 const char* complaintOf(ImuVerdict verdict);
 
 /// Judges each sample by its predecessors.
@@ -46,19 +46,22 @@ class ImuScreen {
   /// Verdict on a sample, and the interval that it ends.
   struct Result {
     ImuVerdict verdict = ImuVerdict::kAccepted;
-    double duration_s = 0.0;  ///< since the previous accepted sample; 0 for the first
-    double gap_s = 0.0;       ///< time without samples in it
+    ImuInterval interval = {};  ///< since the previous accepted sample; none for the first
+    double gap_s = 0.0;         ///< time without samples in it
   };
 
-  explicit ImuScreen(const ImuInputParams& params) : params_(params) {}
+  explicit ImuScreen(const ImuInputParams& params)
+      : params_(params), instantaneous_(params.sampling == "instantaneous") {}
 
-  /// Discards all samples.
+  /// Discards all samples, as after a restart.
   void reset();
 
   Result check(const ImuSample& sample);
 
   /// Stamp of the newest accepted sample, 0 before the first.
-  Nanoseconds newestStamp() const { return newest_stamp_; }
+  Nanoseconds newestStamp() const { return newest_.stamp; }
+  /// How often the source has restarted.
+  std::uint32_t restarts() const { return restarts_; }
   /// Whether all axes have repeated exactly the same values `stuck_samples` times: a sensor or driver that hangs. The
   /// samples are accepted nevertheless, since a sensor with coarse resolution repeats itself at rest.
   bool isFrozen() const;
@@ -77,9 +80,11 @@ class ImuScreen {
   bool isInRange(const ImuSample& sample) const;
 
   ImuInputParams params_;
+  bool instantaneous_;
+  std::uint32_t restarts_ = 0;
   Repeats force_;
   Repeats rate_;
-  Nanoseconds newest_stamp_ = 0;
+  ImuSample newest_;  ///< accepted; stamp 0 before the first
   UsualInterval usual_;
 };
 

@@ -14,10 +14,14 @@ constexpr double kMeanToMean = 2.0 / 3.0;
 constexpr double kDominant = 0.5;
 /// Ground may change at any time: even the smoothest road is assumed to have this much.
 constexpr double kLeastSlowSlip = 0.004;
+/// A vehicle is not faster than its wheels for long. Where it seems so their radius is wrong, by no more than this;
+/// what is beyond is an error of the estimate, which must not make room for itself.
+constexpr double kMostNegativeSlip = -1.0 / 3.0;
 /// IMU vibration acts as white noise below this time and as a bias beyond: after this long a walk of the bias has moved
 /// the velocity as much as the noise has.
 constexpr double kWhiteFor_s = 20.0;
-/// This fraction of the data-sheet bias is not constant in motion, and new about every second.
+/// This fraction of the data-sheet bias is not constant in motion, and new about every second; as much is another one
+/// in motion than at rest.
 constexpr double kUnsteadyBias = 0.1;
 constexpr double kUnsteadyFor_s = 1.0;
 
@@ -56,6 +60,8 @@ NoiseFactors NoiseAdaptation::factors() const {
   return f;
 }
 
+double NoiseAdaptation::biasShiftVariance() const { return square(kUnsteadyBias * floor_.accel_bias_std); }
+
 double NoiseAdaptation::gyroDensity() const { return std::max(floor_.gyro_density, meter_.density().gyro.mean()); }
 
 void NoiseAdaptation::add(const ErrorTransition& transition, const Vector3& vibration_b, Since& since) {
@@ -80,7 +86,7 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   ground.slow_slip_variance =
       ground.slow_slip_variance * factor.slow_slip + square(slope_slip_ * C_b_to_n(2, 0)) + square(kLeastSlowSlip);
   // Ground on which the wheels lose a third of their travel is not ground with a few percent of slip.
-  ground.slow_slip_variance = std::max(ground.slow_slip_variance, square(slow_slip));
+  ground.slow_slip_variance = std::max(ground.slow_slip_variance, square(std::max(slow_slip, kMostNegativeSlip)));
   ground.side_slip_variance = ground.side_slip_variance * factor.side_slip + square(slope_slip_ * C_b_to_n(2, 1));
   dynamics.rollOver(ground, transition);
 

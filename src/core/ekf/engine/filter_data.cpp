@@ -25,10 +25,4 @@ WheelMotion toWheelMotion(const SpeedSample& sample) {
   return wheels;
 }
 
-const char* componentName(Component component) {
-  static constexpr std::array<const char*, kComponents> kNames = {
-      "forward_speed", "yaw_rate", "lateral", "vertical", "zero_velocity", "zero_rate", "fix_position", "fix_velocity"};
-  return kNames[component];
-}
-
 }  // namespace slipnav

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
-#include <utility>
 
 #include "core/base/square.h"
 #include "slipnav/core/base/rotation.h"
@@ -15,23 +13,17 @@ namespace {
 
 /// Receivers give a fix at least every second; after a longer silence the next one cannot be predicted [s].
 constexpr double kLongestFixInterval_s = 2.5;
-constexpr std::size_t kMaxFixes = 4096;  // not yet applied
 
 /// An estimated slip beyond this many standard deviations is not an IMU error.
 constexpr double kShownSigmas = 2.0;
 
-double shownSlip(double slip, double variance) { return square(slip) > square(kShownSigmas) * variance ? slip : 0.0; }
-
 /// Significant fast slip is not pulled back to zero as if it were usual for the ground: where soft ground begins, the
-/// wheels would pull the velocity along within a meter. It is driven by its own square until it has passed.
+/// wheels would pull the velocity along within a meter. It is driven by its own square until it has passed. That is for
+/// wheels that outrun the vehicle: one that is faster than its wheels is slowed down by them within a second.
 void holdShownSlip(double slip, double ground_variance, ErrorTransition& transition) {
-  if (square(slip) > ground_variance && ground_variance > 0.0) {
+  if (slip > 0.0 && square(slip) > ground_variance && ground_variance > 0.0) {
     transition.noise(kFastSlip) *= square(slip) / ground_variance;
   }
-}
-
-bool earlier(const AntennaFix& a, const AntennaFix& b) {
-  return std::pair(stampOf(a), a.index()) < std::pair(stampOf(b), b.index());
 }
 
 }  // namespace
@@ -42,19 +34,19 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
       dynamics_(planet, setup.imu, setup.vehicle),
       detector_(setup.stationary, imuFloor(setup.imu)),
       update_(setup.filter),
-      unseen_motion_(setup.filter),
+      imu_gap_uncertainty_(setup.filter),
       wheel_monitor_(setup.wheel_monitor, setup.wheels),
-      tremor_(setup.zero),
+      standstill_noise_(setup.zero),
       adaptation_(setup.filter.adaptation, setup.imu, setup.vehicle.slope_slip),
       use_wheel_(setup.filter.uses("wheel")),
       use_nonholonomic_(setup.filter.uses("nonholonomic")),
       use_zupt_(setup.filter.uses("zupt")),
       use_zaru_(setup.filter.uses("zaru")),
       wheels_(setup.filter.max_wheel_interval_s),
-      fix_cadence_(kLongestFixInterval_s) {}
+      fix_interval_(kLongestFixInterval_s) {}
 
 void FilterEngine::reset() {
-  initialised_ = false;
+  initialized_ = false;
   steps_.clear();
   wheels_.clear();
   fixes_.clear();
@@ -65,42 +57,46 @@ void FilterEngine::retune(const FilterSetup& setup) {
   setup_ = setup;
   detector_.retune(setup.stationary);
   update_.retune(setup.filter);
-  tremor_.retune(setup.zero);
+  standstill_noise_.retune(setup.zero);
 }
 
-void FilterEngine::initialise(const InitialState& initial) {
-  initialised_ = true;
+void FilterEngine::initialize(const InitialState& initial) {
+  initialized_ = true;
   state_ = initial.nav;
   vehicle_ = initial.vehicle;
   P_ = initial.P;
-  next_sequence_ = 0;
+  has_moved_ = false;
+  has_rested_ = false;
   epoch_ = 0;
   estimate_ = Estimate{};
   detector_.reset();
   stuck_.reset();
   runaway_.reset();
   update_ = GatedUpdate(setup_.filter);
-  tremor_ = Tremor(setup_.zero);
+  standstill_noise_ = StandstillNoise(setup_.zero);
   wheel_monitor_.reset();
-  unseen_motion_.reset();
+  imu_gap_uncertainty_.reset();
   adaptation_.reset();
-  if (initial.tremor_variance > 0.0) {
-    tremor_.setVariance(initial.tremor_variance);
+  if (initial.standstill_variance > 0.0) {
+    standstill_noise_.setVariance(initial.standstill_variance);
   }
   // A wheel interval that began before the initial state is not known in full and is not used.
   average_.restart(wheels_.start(initial.nav.stamp) ? initial.nav.stamp : 0);
   constraint_average_.restart(0);
   slipping_speed_.reset();
   last_forward_mps_ = 0.0;
+  last_rate_b_.reset();
   surface_speed_mps_ = 0.0;
   slipping_way_m_ = 0.0;
+  contradiction_mps_ = 0.0;
   lasting_slip_.reset();
+  unexpected_slip_.begin();
   way_since_wheels_m_ = slow_envelope_ = side_envelope_ = 0.0;
   steps_.clear();
   while (!fixes_.empty() && stampOf(fixes_.front()) <= initial.nav.stamp) {
     fixes_.pop_front();
   }
-  fix_cadence_.restart(initial.nav.stamp);
+  fix_interval_.restart(initial.nav.stamp);
   used_fix_ = 0;
   if (history_) {
     history_->begin(P_);
@@ -108,8 +104,8 @@ void FilterEngine::initialise(const InitialState& initial) {
 }
 
 void FilterEngine::push(const InsStep& step) {
-  const std::uint64_t expected = next_sequence_ + steps_.size();
-  if (initialised_ && step.epoch == epoch_ && step.sequence == expected) {
+  const Nanoseconds end = steps_.empty() ? state_.stamp : steps_.back().state.stamp;
+  if (initialized_ && step.epoch == epoch_ && step.start == end) {
     steps_.push_back(step);
   }
 }
@@ -118,41 +114,41 @@ bool FilterEngine::push(const WheelMotion& wheels) {
   if (!std::isfinite(wheels.motion.forward_mps) || !std::isfinite(wheels.motion.yaw_rate_radps)) {
     return false;
   }
-  if (initialised_ && next_sequence_ == 0 && wheels.stamp == state_.stamp) {
+  if (initialized_ && !has_moved_ && wheels.stamp == state_.stamp) {
     average_.restart(state_.stamp);  // starts the first interval
     return true;
   }
   return wheels_.push(wheels, state_.stamp);
 }
 
-Correction FilterEngine::place(const Placement& placement) {
-  const Geodetic& position = placement.position;
+Correction FilterEngine::place(const PoseOverride& pose) {
+  const Geodetic& position = pose.position;
   const bool possible = std::isfinite(position.longitude_rad) && std::isfinite(position.height_m) &&
-                        std::abs(position.latitude_rad) < 0.5 * kPi && placement.position_std_m > 0.0 &&
-                        std::isfinite(placement.heading_rad.value_or(0.0)) &&
-                        (!placement.heading_rad || placement.heading_std_rad > 0.0);
+                        std::abs(position.latitude_rad) < 0.5 * kPi && pose.position_std_m > 0.0 &&
+                        std::isfinite(pose.heading_rad.value_or(0.0)) &&
+                        (!pose.heading_rad || pose.heading_std_rad > 0.0);
   if (!possible) {
     throw std::invalid_argument("the position is not on this planet, or a standard deviation is not above 0");
   }
-  if (!initialised_ || next_sequence_ == 0) {
+  if (!initialized_ || !has_moved_) {
     throw std::invalid_argument("there is no estimate yet");
   }
   state_.position = position;
   for (int axis = 0; axis < 3; ++axis) {
-    forget(kPosition + axis, square(placement.position_std_m));
+    forget(kPosition + axis, square(pose.position_std_m));
   }
-  if (placement.heading_rad) {
-    turnTo(*placement.heading_rad, placement.heading_std_rad);
+  if (pose.heading_rad) {
+    turnTo(*pose.heading_rad, pose.heading_std_rad);
   }
   return *reissue();
 }
 
 std::optional<Correction> FilterEngine::reissue() {
-  if (!initialised_ || next_sequence_ == 0) {
+  if (!initialized_ || !has_moved_) {
     return std::nullopt;
   }
   steps_.clear();
-  return Correction{next_sequence_ - 1, ++epoch_, state_};
+  return Correction{++epoch_, state_};
 }
 
 InitialState FilterEngine::snapshot() const {
@@ -160,7 +156,7 @@ InitialState FilterEngine::snapshot() const {
   snapshot.nav = state_;
   snapshot.vehicle = vehicle_;
   snapshot.P = P_;
-  snapshot.tremor_variance = tremor_.variance();
+  snapshot.standstill_variance = standstill_noise_.variance();
   return snapshot;
 }
 
@@ -173,78 +169,66 @@ void FilterEngine::turnTo(double heading_rad, double heading_std_rad) {
   P_.diagonal().segment<2>(kVelocity).array() += square(heading_std_rad) * state_.v_eb_n.head<2>().squaredNorm();
 }
 
-bool FilterEngine::push(const AntennaFix& fix) {
-  const bool finite = std::visit([](const auto& f) { return isFinite(f); }, fix);
-  if (!finite || (initialised_ && stampOf(fix) <= state_.stamp)) {
+bool FilterEngine::isCertain(Nanoseconds end, Nanoseconds trusted) const {
+  const double passed_s = toSeconds(trusted - end);
+  if (fixesKnownUntil() < end && passed_s < setup_.gnss.max_wait_s) {
     return false;
   }
-  if (fixes_.size() >= kMaxFixes) {
-    fixes_.pop_front();
-  }
-  fixes_.insertSorted(fix, earlier);
-  return true;
-}
-
-Nanoseconds FilterEngine::fixesKnownUntil() const {
-  if (!setup_.gnss.always()) {
-    return std::numeric_limits<Nanoseconds>::max();
-  }
-  Nanoseconds known = fix_cadence_.newest();
-  for (std::size_t i = 0; i < fixes_.size() && !fix_cadence_.isHole(known, stampOf(fixes_[i])); ++i) {
-    known = stampOf(fixes_[i]);
-  }
-  return std::max({known, fix_cadence_.quietUntil() - 1, fixes_complete_until_});
-}
-
-bool FilterEngine::isCertain(const InsStep& step) const {
-  const double passed_s = toSeconds(steps_.back().state.stamp - step.state.stamp);
-  if (fixesKnownUntil() < step.state.stamp && passed_s < setup_.gnss.max_wait_s) {
-    return false;
-  }
-  if (setup_.filter.updates.empty() || wheels_.knownUntil() >= step.state.stamp) {
+  if (setup_.filter.updates.empty() || wheels_.knownUntil() >= end) {
     return true;
   }
   return passed_s >= setup_.filter.max_wait_s;
 }
 
-std::optional<Correction> FilterEngine::advance(const EstimateSink& sink) {
-  while (!steps_.empty() && isCertain(steps_.front())) {
+std::optional<Correction> FilterEngine::advance(const EstimateSink& sink, std::optional<Nanoseconds> trusted) {
+  while (!steps_.empty() && isCertain(steps_.front().state.stamp, trusted.value_or(steps_.back().state.stamp))) {
     const InsStep step = steps_.front();
     steps_.pop_front();
     const Vector3 v_mean_b = propagate(step);
     const bool by_wheels = applyWheels(step, v_mean_b);
     const bool by_fixes = applyFixes(step);
-    estimate_.sequence = step.sequence;
+    estimate_.first = !has_moved_;
     estimate_.nav = state_;
     estimate_.vehicle = vehicle_;
     estimate_.f_ib_b = step.f_ib_b;
     estimate_.omega_ib_b = step.omega_ib_b;
-    ++next_sequence_;
+    has_moved_ = true;
     if (history_) {
       history_->endStep(state_, vehicle_, step.omega_ib_b, P_);
     }
     sink(estimate_, P_);
     if (by_wheels || by_fixes) {
       steps_.clear();
-      return Correction{step.sequence, ++epoch_, state_};
+      return Correction{++epoch_, state_};
     }
   }
   return std::nullopt;
+}
+
+double FilterEngine::shown(int state, double slip) const {
+  return square(slip) > square(kShownSigmas) * P_(state, state) ? slip : 0.0;
 }
 
 Vector3 FilterEngine::propagate(const InsStep& step) {
   const NavigationState before = state_;
   const Vector3 v_start_b = referenceVelocity(step);
   const double duration_s = std::min(toSeconds(step.state.stamp - step.start), kLongestGap_s);
-  transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, duration_s);
-  adaptation_.addNoise(dynamics_, step, step.state, shownSlip(vehicle_.slow_slip, P_(kSlowSlip, kSlowSlip)),
+  const Vector3 rate_b = step.omega_ib_b + state_.gyro_bias_b;
+  const bool follows = last_rate_b_ && step.gap_s <= 0.0;  // as in the mechanization
+  const Vector3 rate_change_b = follows ? Vector3(rate_b - *last_rate_b_) : Vector3(Vector3::Zero());
+  last_rate_b_ = rate_b;
+  transition_ = dynamics_.transition(state_, step.state, step.f_ib_b, step.omega_ib_b, rate_change_b, duration_s);
+  if (estimate_.stationary) {
+    transition_.motion_from_offset.setZero();  // these rates are noise
+  }
+  adaptation_.addNoise(dynamics_, step, step.state, shown(kSlowSlip, vehicle_.slow_slip),
                        surface_speed_mps_ * duration_s, transition_);
   // A slower rover does not hold its slip: its IMU would drift meanwhile.
   if (state_.v_eb_n.norm() * setup_.filter.max_rejection_s > setup_.vehicle.fast_slip_length_m) {
-    holdShownSlip(shownSlip(vehicle_.fast_slip, P_(kFastSlip, kFastSlip)), adaptation_.ground().fast_slip_variance,
-                  transition_);
+    holdShownSlip(shown(kFastSlip, vehicle_.fast_slip), adaptation_.ground().fast_slip_variance, transition_);
   }
   ErrorDynamics::propagate(transition_, P_);
+  unexpected_slip_.propagate(transition_, surface_speed_mps_ * duration_s);
   if (history_) {
     history_->propagate(transition_);
   }
@@ -252,7 +236,7 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   constraint_average_.propagate(transition_);
   ErrorDynamics::decay(transition_, vehicle_);
   const Vector3 f_ib_b = step.f_ib_b + state_.accel_bias_b;
-  detector_.addImu(step.state.stamp, f_ib_b, step.omega_ib_b + state_.gyro_bias_b);
+  detector_.addImu(step.state.stamp, f_ib_b, rate_b);
   runaway_.addImu(f_ib_b, duration_s);
   state_ = step.state;
   if (step.gap_s > 0.0) {
@@ -263,10 +247,10 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
 }
 
 void FilterEngine::endGap(const InsStep& step, const NavigationState& before) {
-  unseen_motion_.begin(state_, std::min(step.gap_s, kLongestGap_s), runaway_.fastest_mps(), P_);
+  imu_gap_uncertainty_.begin(state_, std::min(step.gap_s, kLongestGap_s), runaway_.fastest_mps(), P_);
   if (step.gap_s > setup_.filter.max_wheel_interval_s && step.gap_s <= kLongestGap_s &&
       !wheels_.hasUpTo(step.start + fromSeconds(step.gap_s))) {
-    UnseenMotion::allowForStandstill(before, state_, P_);
+    ImuGapUncertainty::allowForStandstill(before, state_, P_);
   }
   forgetSlipImpulse();
   average_.restart(0);
@@ -287,41 +271,10 @@ void FilterEngine::forgetSlipImpulse() {
 
 void FilterEngine::forget(int index, double variance) {
   forgetError(index, variance, P_);
+  unexpected_slip_.forget(index);
   if (history_) {
     history_->forget(index);
   }
-}
-
-bool FilterEngine::applyFixes(const InsStep& step) {
-  const Vector3& lever_b = setup_.lever_imu_to_antenna_b;
-  bool corrected = false;
-  while (!fixes_.empty() && stampOf(fixes_.front()) <= state_.stamp) {
-    MeasurementSet set;
-    if (const auto* position = std::get_if<PositionFix>(&fixes_.front())) {
-      addFix(*position, set);
-    } else {
-      set.add(kFixVelocity, velocityMeasurement(planet_, std::get<VelocityFix>(fixes_.front()), state_, step.f_ib_b,
-                                                step.omega_ib_b, lever_b));
-    }
-    const Nanoseconds stamp = stampOf(fixes_.front());
-    if (update(set)) {
-      corrected = true;
-      used_fix_ = stamp;
-    }
-    if (stamp > fix_cadence_.newest()) {
-      fix_cadence_.add(stamp);
-    }
-    fixes_.pop_front();
-  }
-  return corrected;
-}
-
-/// Gated by the receiver's covariance, and weighted by what it adds to earlier fixes.
-void FilterEngine::addFix(const PositionFix& fix, MeasurementSet& set) const {
-  const double factor = setup_.gnss.always() && used_fix_ != 0
-                            ? repeatedFixFactor(toSeconds(fix.stamp - used_fix_), setup_.gnss.correlation_s)
-                            : 1.0;
-  set.add(kFixPosition, positionMeasurement(planet_, fix, state_, setup_.lever_imu_to_antenna_b), factor);
 }
 
 bool FilterEngine::update(MeasurementSet set) {
@@ -329,15 +282,17 @@ bool FilterEngine::update(MeasurementSet set) {
   return passed && use(*passed);
 }
 
-bool FilterEngine::use(const Measurement& measurement) {
+/// @param is_evidence false for what nobody has measured
+bool FilterEngine::use(const Measurement& measurement, bool is_evidence) {
   if (history_) {
     history_->advance(P_);
   }
-  const std::optional<ErrorVector> error = kalmanUpdate(measurement, P_);
-  if (error) {
-    take(*error);
+  const std::optional<UpdateGain> used = updateCovariance(measurement, P_);
+  if (used) {
+    unexpected_slip_.update(measurement, *used, is_evidence);
+    take(-used->K * measurement.residual);
   }
-  return error.has_value();
+  return used.has_value();
 }
 
 void FilterEngine::take(const ErrorVector& error) {

@@ -20,7 +20,8 @@ void GatedUpdate::retune(const FilterParams& params) {
 
 double GatedUpdate::limit(const MeasurementSet::Block& block) const {
   const bool zero = block.component == kZeroVelocity || block.component == kZeroRate;
-  return (zero ? zero_gate_ : gate_)[static_cast<std::size_t>(block.measurement.residual.size())];
+  const auto rows = static_cast<int>(block.measurement.residual.size());
+  return zero ? zeroGate(rows) : gate(rows);
 }
 
 /// How long a measurement may contradict before the state is doubted instead. Scrub and slip of one side contradict the

@@ -14,6 +14,7 @@ void MeanMotion::propagate(const ErrorTransition& transition) {
   const Eigen::Matrix<double, 3, 9> before = integral_.leftCols<9>();
   integral_.leftCols<9>() += before;
   integral_.leftCols<kNavStates>().noalias() -= before * transition.nav;
+  integral_.middleCols<2>(kImuOffset).noalias() -= before.middleCols<6>(kVelocity) * transition.motion_from_offset;
 }
 
 void MeanMotion::add(const InsStep& step, const Vector3& v_eb_b, const VelocityJacobian& H_v, Nanoseconds from,

@@ -18,6 +18,7 @@ void FilterEngine::recover(const WheelMotion& wheels) {
   state_.q_b_to_n = q_b_to_n_fromEuler(level.x(), level.y(), eulerFrom_q_b_to_n(state_.q_b_to_n).z());
   state_.v_eb_n = state_.q_b_to_n * Vector3(wheels.motion.forward_mps, 0.0, 0.0);
   state_.accel_bias_b.setZero();
+  state_.imu_offset_b.setZero();
   vehicle_ = VehicleState{};
   for (int axis = 0; axis < 3; ++axis) {
     forget(kVelocity + axis, square(runaway_.fastest_mps()));
@@ -32,6 +33,7 @@ void FilterEngine::recover(const WheelMotion& wheels) {
   }
   slow_envelope_ = side_envelope_ = 0.0;
   lasting_slip_.reset();
+  unexpected_slip_.begin();
   stuck_.reset();
 }
 

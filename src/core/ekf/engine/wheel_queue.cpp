@@ -19,7 +19,7 @@ void WheelQueue::clear() {
 
 bool WheelQueue::start(Nanoseconds stamp) {
   started_ = true;
-  cadence_.restart(stamp);
+  interval_.restart(stamp);
   bool at_start = false;
   while (!samples_.empty() && samples_.front().stamp <= stamp) {
     at_start = samples_.front().stamp == stamp;
@@ -29,7 +29,7 @@ bool WheelQueue::start(Nanoseconds stamp) {
 }
 
 bool WheelQueue::push(const WheelMotion& wheels, Nanoseconds processed_until) {
-  if (started_ && (wheels.stamp <= cadence_.newest() || cadence_.due(wheels.stamp) <= processed_until)) {
+  if (started_ && (wheels.stamp <= interval_.newest() || interval_.due(wheels.stamp) <= processed_until)) {
     return false;
   }
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -47,22 +47,22 @@ bool WheelQueue::push(const WheelMotion& wheels, Nanoseconds processed_until) {
 void WheelQueue::assumeCompleteUpTo(Nanoseconds stamp) { complete_until_ = std::max(complete_until_, stamp); }
 
 Nanoseconds WheelQueue::knownUntil() const {
-  Nanoseconds known = cadence_.newest();
-  for (std::size_t i = 0; i < samples_.size() && !cadence_.isHole(known, samples_[i].stamp); ++i) {
+  Nanoseconds known = interval_.newest();
+  for (std::size_t i = 0; i < samples_.size() && !interval_.isHole(known, samples_[i].stamp); ++i) {
     known = samples_[i].stamp;
   }
-  return std::max({known, complete_until_, cadence_.quietUntil() - 1});
+  return std::max({known, complete_until_, interval_.quietUntil() - 1});
 }
 
 bool WheelQueue::hasUpTo(Nanoseconds stamp) const {
-  return !samples_.empty() && cadence_.due(samples_.front().stamp) <= stamp;
+  return !samples_.empty() && interval_.due(samples_.front().stamp) <= stamp;
 }
 
 WheelMotion WheelQueue::take() {
   WheelMotion wheels = samples_.front();
   samples_.pop_front();
-  const Nanoseconds due = cadence_.due(wheels.stamp);
-  cadence_.add(wheels.stamp);
+  const Nanoseconds due = interval_.due(wheels.stamp);
+  interval_.add(wheels.stamp);
   wheels.stamp = due;
   return wheels;
 }

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/square.h"
 #include "slipnav/core/ekf/engine/filter_engine.h"
+#include "slipnav/core/ekf/engine/filter_history.h"
 
 namespace slipnav {
 namespace {
@@ -134,9 +136,9 @@ bool FilterEngine::stand(const WheelMotion& wheels, const BodyMotion& motion) {
   MeasurementSet set;
   const ComponentStatus before = update_.status(kZeroVelocity);
   if (use_zupt_) {
-    tell(kZeroVelocity, wheels.stamp, zeroVelocityMeasurement(tremor_.variance(), state_));
-    tremor_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
-    const Measurement zero = zeroVelocityMeasurement(tremor_.variance(), state_);
+    tell(kZeroVelocity, wheels.stamp, zeroVelocityMeasurement(standstill_noise_.variance(), state_));
+    standstill_noise_.learn(state_.v_eb_n, P_.diagonal().segment<3>(kVelocity).mean());
+    const Measurement zero = zeroVelocityMeasurement(standstill_noise_.variance(), state_);
     set.add(kZeroVelocity, zero);
   }
   if (use_zaru_) {
@@ -148,12 +150,16 @@ bool FilterEngine::stand(const WheelMotion& wheels, const BodyMotion& motion) {
   const bool corrected = update(set);
   const bool stands = update_.status(kZeroVelocity).accepted > before.accepted;
   if (update_.status(kZeroVelocity).measured() > before.measured()) {
-    unseen_motion_.standstill(stands, P_);
+    imu_gap_uncertainty_.standstill(stands, P_);
   }
   constraint_average_.restart(wheels.stamp);
   adaptation_.constraintsUsed();
   estimate_.wheel_speed_used = false;
   estimate_.stationary = !use_zupt_ || stands;
+  has_rested_ = has_rested_ || stands;
+  if (stands) {
+    allowForUnexpectedSlip();
+  }
   return corrected;
 }
 
@@ -178,13 +184,40 @@ void FilterEngine::condition(int state, double variance, double value, double& e
     m.residual(0) = -value;
     m.H(0, state) = 1.0;
     m.variance(0) = 1.0 / (1.0 / envelope - 1.0 / P_(state, state));
-    use(m);
+    use(m, false);
   }
+}
+
+/// What rest has taught of an accelerometer is not exact in motion: vibration shifts its bias. Only along the vertical,
+/// where the shift would become a vertical speed; across, it could not be told from tilt at the next stop, which
+/// would cost what stops have taught of both.
+void FilterEngine::allowForBiasShift() {
+  const Vector3 up_b = state_.q_b_to_n.conjugate() * -Vector3::UnitZ();
+  P_.block<3, 3>(kAccelBias, kAccelBias) += adaptation_.biasShiftVariance() * up_b * up_b.transpose();
+}
+
+/// Only where the way since the last stop contradicts the filter as a standstill must in order to fail its gate: less
+/// is as well explained by a shift of the accelerometers' biases.
+void FilterEngine::allowForUnexpectedSlip() {
+  const std::optional<UnexpectedSlip::Finding> found = unexpected_slip_.finding();
+  if (!found || found->squared <= update_.zeroGate(UnexpectedSlip::kTerms)) {
+    return;
+  }
+  P_ += found->P;
+  if (history_) {
+    history_->advance(P_);
+  }
+  take(found->error);
+  unexpected_slip_.begin();
 }
 
 bool FilterEngine::drive(const WheelMotion& wheels, const BodyMotion& motion) {
   MeasurementSet set;
   conditionOnGround();
+  if (std::exchange(has_rested_, false)) {
+    unexpected_slip_.begin();
+    allowForBiasShift();
+  }
   estimate_.stationary = false;
   estimate_.wheel_speed_used = false;
   if (use_wheel_) {
@@ -205,7 +238,7 @@ bool FilterEngine::drive(const WheelMotion& wheels, const BodyMotion& motion) {
   const bool corrected = update(set);
   if (update_.status(kForwardSpeed).rejected > before.rejected) {
     estimate_.wheel_speed_used = false;
-    unseen_motion_.doubt(wheels.stamp, P_);
+    imu_gap_uncertainty_.doubt(wheels.stamp, P_);
   }
   if (constrained) {
     constraint_average_.restart(wheels.stamp);
@@ -237,11 +270,19 @@ void FilterEngine::addForwardSpeed(const WheelMotion& wheels, const BodyMotion& 
   estimate_.wheel_speed_used = squared <= update_.gate(1) * innovation.variance;
   if (estimate_.wheel_speed_used) {
     slipping_way_m_ = 0.0;
-  } else {
+  } else if (isSlip(m.residual(0))) {
     loosen(m, wheels.stamp, squared / std::max(square(interval.slipping_speed_mps), 1e-12));
   }
+  contradiction_mps_ = estimate_.wheel_speed_used ? 0.0 : m.residual(0);
   openSlowSlip();
   set.add(kForwardSpeed, m);
+}
+
+/// A reading error, such as a late count, contradicts once, and then in the opposite direction if at all; slip lasts.
+/// Its end, where it has been seen, counts at once. If each reading error passed for slip, the wheels could say nothing
+/// about the speed for the distance over which slip is forgotten.
+bool FilterEngine::isSlip(double contradiction_mps) const {
+  return contradiction_mps * contradiction_mps_ > 0.0 || shown(kFastSlip, vehicle_.fast_slip) != 0.0;
 }
 
 void FilterEngine::openSlowSlip() {
@@ -275,7 +316,7 @@ void FilterEngine::loosen(const Measurement& forward, Nanoseconds stamp, double 
   if (jump <= square(kLargestSlipJump)) {
     P_(kFastSlip, kFastSlip) += jump;
   }
-  unseen_motion_.doubt(stamp, P_);
+  imu_gap_uncertainty_.doubt(stamp, P_);
 }
 
 void FilterEngine::addConstraints(Nanoseconds stamp, MeasurementSet& set) {

@@ -18,6 +18,8 @@ constexpr double kLeastWay_m = 1e-4;
 void WheelOdometryParams::visit(ParameterVisitor& v) {
   v.choice("source", source, {"auto", "joint_states", "wheel_odometry"},
            "message that provides the wheel speeds; auto: joint_states once it has a usable message");
+  v.number("odometry_scale", odometry_scale, {0.1, 10.0},
+           "ground speed over the forward speed of wheel_odometry, as calibrate finds it");
   v.number("stamp_delay_s", stamp_delay_s, {-1.0, 1.0},
            "how late a sample is stamped after the end of the interval that its speeds are the mean of [s]");
   v.number("speed_std_mps", speed_std_mps, {1e-6, 10.0},

@@ -16,20 +16,20 @@ void ZeroMotionParams::visit(ParameterVisitor& v) {
            "1σ of the rate at standstill in addition to the gyro noise [°/h]");
 }
 
-Tremor::Tremor(const ZeroMotionParams& params)
+StandstillNoise::StandstillNoise(const ZeroMotionParams& params)
     : least_variance_(square(params.least_velocity_std_mps)),
       largest_variance_(square(params.largest_velocity_std_mps)),
       gain_(1.0 / params.adaptation_samples),
       variance_(square(params.velocity_std_mps)) {}
 
-void Tremor::retune(const ZeroMotionParams& params) {
+void StandstillNoise::retune(const ZeroMotionParams& params) {
   least_variance_ = square(params.least_velocity_std_mps);
   largest_variance_ = square(params.largest_velocity_std_mps);
   gain_ = 1.0 / params.adaptation_samples;
   variance_ = std::clamp(variance_, least_variance_, largest_variance_);
 }
 
-void Tremor::learn(const Vector3& velocity_n, double predicted_variance) {
+void StandstillNoise::learn(const Vector3& velocity_n, double predicted_variance) {
   const double innovation2 = std::min(velocity_n.squaredNorm() / 3.0, largest_variance_);
   const double share = variance_ / (variance_ + predicted_variance);
   variance_ += gain_ * share * share * (innovation2 - predicted_variance - variance_);

@@ -39,6 +39,15 @@ TEST(ImuDoubt, GrowsWhereTheyAgree) {
   EXPECT_GT(doubt.excess(), 100.0);
 }
 
+/// Ninety times the data sheet: beyond that a contradiction is about the state.
+TEST(ImuDoubt, HasALimit) {
+  ImuDoubt doubt(kDefault);
+  for (int i = 0; i < 1000; ++i) {
+    doubt.compare(kSideways, 5.0, kAside);
+  }
+  EXPECT_DOUBLE_EQ(doubt.excess(), std::expm1(9.0));
+}
+
 /// A velocity that is wrong in the navigation frame changes sign in a rover that has turned round.
 TEST(ImuDoubt, ComparesInTheNavigationFrame) {
   ImuDoubt turning(kDefault);

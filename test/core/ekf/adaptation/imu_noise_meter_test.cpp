@@ -61,6 +61,41 @@ TEST(ImuNoiseMeter, ShakingCountsAtOnce) {
   EXPECT_GT(meter.density().accel.mean(), 0.4 * 0.4 * 0.4 * kPeriod_s);
 }
 
+/// What shook seconds ago shakes no more: a share of 1/e remains after four.
+TEST(ImuNoiseMeter, ForgetsOverSeconds) {
+  ImuNoiseMeter meter;
+  sim::RandomStream random(1, "noise");
+  const auto run = [&](double std, double duration_s) {
+    for (int i = 0; i < static_cast<int>(duration_s / kPeriod_s); ++i) {
+      meter.add(std * random.normal3(), Vector3::Zero(), kPeriod_s);
+    }
+    return meter.density().accel.mean();
+  };
+  const double shaking = run(0.4, 20.0);
+  const double after = run(0.0, 4.0);
+  EXPECT_GT(after, 0.28 * shaking);
+  EXPECT_LT(after, 0.48 * shaking);
+}
+
+/// Bounded shaking shows in long means only: one that a gap cuts in two belongs to neither of its sides.
+TEST(ImuNoiseMeter, AMeanEndsAtAGap) {
+  const auto density = [](int gap) {
+    ImuNoiseMeter meter;
+    sim::RandomStream random(1, "noise");
+    Vector3 before = Vector3::Zero();
+    for (int i = 0; i < 2000; ++i) {
+      if (i == gap) {
+        meter.interrupt();
+      }
+      const Vector3 velocity = 0.005 * random.normal3();
+      meter.add((velocity - before) / kPeriod_s - 9.8 * Vector3::UnitZ(), Vector3::Zero(), kPeriod_s);
+      before = velocity;
+    }
+    return meter.density().accel.z();
+  };
+  EXPECT_LT(density(1903), 2.0 * density(-1));
+}
+
 TEST(ImuNoiseMeter, AGapIsNoNoise) {
   ImuNoiseMeter meter;
   sim::RandomStream random(1, "noise");

@@ -32,7 +32,8 @@ class Learner {
     step.state = state_;
     step.state.stamp = step.start + fromSeconds(kStep_s);
     step.f_ib_b = Vector3(0.0, 0.0, -9.8);
-    ErrorTransition transition = dynamics_.transition(state_, state_, step.f_ib_b, Vector3::Zero(), kStep_s);
+    ErrorTransition transition =
+        dynamics_.transition(state_, state_, step.f_ib_b, Vector3::Zero(), Vector3::Zero(), kStep_s);
     adaptation_.addNoise(dynamics_, step, step.state, slow_slip, kWay_m, transition);
     return transition.noise;
   }
@@ -104,9 +105,18 @@ TEST(NoiseAdaptation, GroundSlipsAtLeastAsMuchAsItIsSeenTo) {
   Learner learner;
   const double firm = learner.step(0.0)(kSlowSlip);
   EXPECT_EQ(learner.step(0.01)(kSlowSlip), firm) << "less than the ground may have anyway";
-  learner.step(-0.4);
+  learner.step(0.4);
   EXPECT_NEAR(learner.adaptation().ground().slow_slip_variance, square(0.4), 1e-12);
-  EXPECT_GT(learner.step(-0.4)(kSlowSlip), 50.0 * firm);
+  EXPECT_GT(learner.step(0.4)(kSlowSlip), 50.0 * firm);
+}
+
+/// Wheels smaller than configured look like that, but none is three times as small.
+TEST(NoiseAdaptation, AVehicleFasterThanItsWheelsIsNotTheGround) {
+  Learner learner;
+  learner.step(-0.2);
+  EXPECT_NEAR(learner.adaptation().ground().slow_slip_variance, square(0.2), 1e-12);
+  learner.step(-2.0);
+  EXPECT_NEAR(learner.adaptation().ground().slow_slip_variance, square(1.0 / 3.0), 1e-12);
 }
 
 TEST(NoiseAdaptation, ARoverAtRestHasTheNoiseOfItsDataSheet) {
@@ -116,7 +126,8 @@ TEST(NoiseAdaptation, ARoverAtRestHasTheNoiseOfItsDataSheet) {
   InsStep step;
   step.state.stamp = fromSeconds(kStep_s);
   step.f_ib_b = Vector3(0.0, 0.0, -9.8);
-  const ErrorTransition bare = dynamics.transition(step.state, step.state, step.f_ib_b, Vector3::Zero(), kStep_s);
+  const ErrorTransition bare =
+      dynamics.transition(step.state, step.state, step.f_ib_b, Vector3::Zero(), Vector3::Zero(), kStep_s);
   ErrorTransition resting = bare;
   adaptation.addNoise(dynamics, step, step.state, 0.0, 0.0, resting);
   EXPECT_LT((resting.noise.head<kNavStates>() - bare.noise.head<kNavStates>()).norm(), 1e-15);

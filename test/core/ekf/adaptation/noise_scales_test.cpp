@@ -48,12 +48,44 @@ TEST(NoiseScales, OneOutlierDoesNotTurnARoadIntoSand) {
   EXPECT_LT(scales.factor(kFastSlipNoise), 2.0 * before);
 }
 
+/// Five and a half sigma may be noise, and count for what they are; what is farther out counts no more than that.
+TEST(NoiseScales, AnInnovationBeyondAllNoiseCountsAsTheLargestThatMayBeNoise) {
+  const auto after = [](double nis) {
+    NoiseScales scales({});
+    NoiseVector shares = NoiseVector::Zero();
+    shares(kWheelNoise) = 0.25;
+    scales.learn(shares, nis * 4.0, 4.0);
+    return scales.factor(kWheelNoise);
+  };
+  EXPECT_GT(after(30.0), 1.01 * after(25.0));
+  EXPECT_EQ(after(31.0), after(30.0));
+  EXPECT_EQ(after(1e6), after(30.0));
+}
+
 TEST(NoiseScales, ForgetsOverTheWay) {
   NoiseScales scales({});
   learn(scales, kFastSlipNoise, 0.1, 0.0, 500);
   ASSERT_LT(scales.factor(kFastSlipNoise), 0.1);
   scales.fade(2000.0);
   EXPECT_NEAR(scales.factor(kFastSlipNoise), 1.0, 1e-3);
+}
+
+/// Equally uncertain factors learn the same from the same innovation.
+TEST(NoiseScales, LearnsAsFastAsItsFactorIsUncertain) {
+  const auto after = [](NoiseKind kind, double factor_std) {
+    NoiseScaleParams params;
+    params.factor_std = params.slip_factor_std = params.whiteness_factor_std = factor_std;
+    params.whiteness = 1.0;
+    NoiseScales scales(params);
+    NoiseVector shares = NoiseVector::Zero();
+    shares(kind) = 1.0;
+    scales.learn(shares, 0.2, 4.0);
+    return scales.factor(kind);
+  };
+  for (int kind = 0; kind < kNoiseKinds; ++kind) {
+    EXPECT_EQ(after(static_cast<NoiseKind>(kind), 2.0), after(kLateralNoise, 2.0)) << kind;
+    EXPECT_LT(after(static_cast<NoiseKind>(kind), 3.0), after(static_cast<NoiseKind>(kind), 2.0)) << kind;
+  }
 }
 
 TEST(NoiseScales, ShakingIsNeverMoreThanWhite) {

@@ -45,7 +45,7 @@ class Fixes : public ::testing::Test {
     Navigator navigator(Planet::byName(config_.planet), setup.imu_input, setup.filter);
     EstimateLog log;
     const auto sink = [&log](const Estimate& estimate, const ErrorCovariance& P) { log.push_back({estimate, P}); };
-    navigator.initialise(drive_.initial);
+    navigator.initialize(drive_.initial);
     std::size_t next = 0;
     refused_ = 0;
     for (const DriveSample& sample : drive_.samples) {
@@ -91,6 +91,15 @@ TEST_F(Fixes, BoundTheErrorAsTheyDeserve) {
   const EstimateLog careful = run("always", fixes_);
   EXPECT_GT(finalSigma_m(careful), 1.5 * finalSigma_m(log))
       << "many that share an error are worth little more than one";
+}
+
+/// The few fixes of a start are weighed by their drive, not by how alike their errors are.
+TEST_F(Fixes, OfAStartCountInFull) {
+  config_.gnss.correlation_s = 0.0;
+  const EstimateLog independent = run("start", fixes_);
+  config_.gnss.correlation_s = 10.0;
+  EXPECT_TRUE(sameEstimates(independent, run("start", fixes_)));
+  EXPECT_FALSE(sameEstimates(independent, run("start", {})));
 }
 
 TEST_F(Fixes, ThatComeLateGiveTheSameBits) {

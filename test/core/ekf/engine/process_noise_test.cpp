@@ -45,7 +45,7 @@ VehicleModelParams distinctVehicle() {
 ErrorTransition transitionInFreeFall(const ErrorDynamics& dynamics, double duration_s) {
   NavigationState state;
   state.position = {degToRad(45.0), 0.0, 0.0};
-  ErrorTransition t = dynamics.transition(state, state, Vector3::Zero(), Vector3::Zero(), duration_s);
+  ErrorTransition t = dynamics.transition(state, state, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), duration_s);
   GroundStep ground = dynamics.ground();
   ground.way_m = duration_s;  // at 1 m/s
   dynamics.rollOver(ground, t);
@@ -69,7 +69,8 @@ TEST(ProcessNoise, PropagationIsTheDenseProduct) {
   for (int i = 0; i < 20; ++i) {
     const NavigationState start = randomState(random, 1.0);
     const NavigationState end = randomState(random, 1.0);
-    const ErrorTransition t = dynamics.transition(start, end, 10.0 * random.normal3(), random.normal3(), 0.3);
+    const ErrorTransition t =
+        dynamics.transition(start, end, 10.0 * random.normal3(), random.normal3(), random.normal3(), 0.3);
     ErrorCovariance P = randomCovariance(random);
     const ErrorCovariance half_Q = 0.5 * ErrorCovariance(t.noise.asDiagonal());
     const ErrorCovariance phi = t.matrix();
@@ -79,6 +80,7 @@ TEST(ProcessNoise, PropagationIsTheDenseProduct) {
     EXPECT_TRUE(P == P.transpose());
     // each part that the sparse product treats by itself matters
     EXPECT_GT((phi.block<6, 1>(0, kYawScale)).norm(), 0.01);
+    EXPECT_GT((phi.block<6, 2>(kVelocity, kImuOffset)).norm(), 0.01);
   }
 }
 
@@ -187,7 +189,7 @@ TEST(ProcessNoise, EstimatesOfGaussMarkovStatesFade) {
 /// Slip belongs to the ground: a rover at rest keeps it, and what it knows of it.
 TEST(ProcessNoise, SlipStaysWhileTheRoverStands) {
   const ErrorDynamics dynamics(Planet::byName("earth"), silentImu(), distinctVehicle());
-  ErrorTransition t = dynamics.transition({}, {}, Vector3::Zero(), Vector3::Zero(), 10.0);
+  ErrorTransition t = dynamics.transition({}, {}, Vector3::Zero(), Vector3::Zero(), Vector3::Zero(), 10.0);
   dynamics.rollOver(dynamics.ground(), t);
   VehicleState vehicle{0.0, 0.3, 0.2, 0.1, 0.0, 0.0};
   ErrorDynamics::decay(t, vehicle);

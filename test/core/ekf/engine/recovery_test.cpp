@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/navigation/navigator.h"
 #include "recorded_drive.h"
-#include "slipnav/core/navigation/navigator.h"
 
 namespace slipnav::test {
 namespace {
@@ -27,7 +27,7 @@ TEST(Recovery, TakesVelocityFromTheWheelsAndLevelFromGravity) {
   drive.initial.nav.accel_bias_b = Vector3(0.0, 0.0, 0.3);
   const NavigationSetup setup = config().navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive.initial);
+  navigator.initialize(drive.initial);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   double fastest_mps = 0.0;
   double variance_before = 0.0;
@@ -60,7 +60,7 @@ TEST(Recovery, IsNoneInAnOrdinaryDrive) {
   const RecordedDrive drive = recordDrive(driveConfig(10.0));
   const NavigationSetup setup = driveConfig(10.0).navigation();
   Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialise(drive.initial);
+  navigator.initialize(drive.initial);
   const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
   for (const DriveSample& sample : drive.samples) {
     sample.is_imu ? static_cast<void>(navigator.push(sample.imu, ignore))

@@ -131,6 +131,27 @@ TEST(MeasurementNoise, GrowsWithSpeedAndTurns) {
               4.0 * (0.03 * 0.03 + std::pow(0.04 * v_x, 2) + 0.1 * 0.1), 1e-12);
 }
 
+/// Slip is a ratio of a speed that lags behind: what the rover gains on it slips too, by a ratio that is known as well
+/// as the filter knows it.
+TEST(MeasurementNoise, CountsTheSlipOfWhatTheRoverIsAheadBy) {
+  VehicleState slipping;
+  slipping.wheel_scale = 0.01;
+  slipping.slow_slip = 0.2;
+  slipping.fast_slip = -0.05;
+  const auto variance = [&slipping](double slipping_speed_mps, double slip_variance) {
+    return forwardSpeedMeasurement({}, {kSpeed, slipping_speed_mps, 0.1, 0.0}, kDriving, jacobian(eastbound()),
+                                   slipping, slip_variance, {})
+        .variance(0);
+  };
+  const double ahead_mps = kSpeed - 0.3;
+  const WheelOdometryParams wheel;
+  const WheelInterval lagging{kSpeed, -0.3, 0.1, 0.0};
+  const double others = wheelNoiseVariance(wheel, 0.1, {}) + newSlipVariance(wheel, lagging, {});
+  EXPECT_NEAR(variance(-0.3, 0.0), others + std::pow(ahead_mps * 0.16, 2), 1e-12);
+  EXPECT_NEAR(variance(0.3, 0.04) - variance(0.3, 0.0), std::pow(ahead_mps * 0.2, 2), 1e-12);
+  EXPECT_EQ(variance(kSpeed, 0.04), variance(kSpeed, 0.0)) << "a rover at a steady speed is not ahead";
+}
+
 /// Encoders of any rate say the same together: information is a density in time for noise, in way for slip.
 TEST(MeasurementNoise, OfManyShortIntervalsIsThatOfALongOne) {
   const auto variance = [](double duration_s) {

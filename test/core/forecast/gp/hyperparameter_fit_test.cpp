@@ -279,7 +279,14 @@ TEST(HyperparameterFit, ABreakingLikelihoodFailsAndReturnsTheStart) {
 
 TEST(HyperparameterFit, LengthsMustAgree) {
   BreakingProcess process(BreakingProcess::Way::kNaN, 0);
-  EXPECT_THROW(fitHyperparameters(process, {}, Eigen::VectorXd::Zero(1), kSettings), std::invalid_argument);
+  const Eigen::MatrixXd curvature = Eigen::MatrixXd::Identity(1, 1);
+  const std::vector<LogPrior> two(2);
+  for (const std::vector<LogPrior>& priors : {std::vector<LogPrior>(), two}) {
+    EXPECT_THROW(fitHyperparameters(process, priors, Eigen::VectorXd::Zero(1), kSettings), std::invalid_argument);
+    EXPECT_THROW(refineHyperparameters(process, priors, Eigen::VectorXd::Zero(1), curvature, kSettings),
+                 std::invalid_argument);
+  }
+  EXPECT_THROW(fitHyperparameters(process, two, Eigen::VectorXd::Zero(2), kSettings), std::invalid_argument);
 }
 
 }  // namespace

@@ -42,6 +42,9 @@ class NoiseAdaptation {
   /// Noise density of the gyros including vibration, mean over the axes [rad²/s].
   double gyroDensity() const;
 
+  /// Variance of the accelerometer bias in motion about that at rest [(m/s²)²].
+  double biasShiftVariance() const;
+
   /// A forward speed has been compared with its prediction.
   void learnForward(const WheelOdometryParams& params, const WheelInterval& wheels, const Innovation1& innovation);
   /// A mean lateral or vertical speed has been compared with its prediction.

@@ -18,12 +18,12 @@ struct InitialState {
   NavigationState nav;
   VehicleState vehicle;
   ErrorCovariance P = ErrorCovariance::Identity();
-  Geodetic origin;               ///< of the map frame
-  double tremor_variance = 0.0;  ///< learned variance of the velocity at standstill [m²/s²]; 0: not learned yet
+  Geodetic origin;                   ///< of the map frame
+  double standstill_variance = 0.0;  ///< learned variance of the velocity at standstill [m²/s²]; 0: not learned yet
 };
 
 /// A position, and possibly a heading, from outside that overrides the filter's.
-struct Placement {
+struct PoseOverride {
   Geodetic position;  ///< of the IMU
   double position_std_m = 0.0;
   std::optional<double> heading_rad;  ///< clockwise from north; if absent the present one stays
@@ -55,7 +55,11 @@ enum Component : int {
   kComponents
 };
 
-const char* componentName(Component component);
+inline const char* componentName(Component component) {
+  constexpr std::array<const char*, kComponents> kNames = {
+      "forward_speed", "yaw_rate", "lateral", "vertical", "zero_velocity", "zero_rate", "fix_position", "fix_velocity"};
+  return kNames[component];
+}
 
 /// Results of one kind of measurement.
 struct ComponentStatus {
@@ -71,7 +75,7 @@ struct ComponentStatus {
 
 /// The filter's estimate at the end of one step.
 struct Estimate {
-  std::uint64_t sequence = 0;
+  bool first = false;  ///< since the start
   NavigationState nav;
   Vector3 f_ib_b = Vector3::Zero();      ///< bias-corrected mean specific force of the step [m/s²]
   Vector3 omega_ib_b = Vector3::Zero();  ///< bias-corrected mean rate of the step [rad/s]

@@ -20,18 +20,19 @@
 #include "slipnav/core/ekf/engine/filter_data.h"
 #include "slipnav/core/ekf/engine/filter_params.h"
 #include "slipnav/core/ekf/engine/gated_update.h"
+#include "slipnav/core/ekf/engine/imu_gap_uncertainty.h"
 #include "slipnav/core/ekf/engine/innovation.h"
 #include "slipnav/core/ekf/engine/lasting_slip.h"
 #include "slipnav/core/ekf/engine/mean_motion.h"
 #include "slipnav/core/ekf/engine/runaway_watch.h"
-#include "slipnav/core/ekf/engine/unseen_motion.h"
+#include "slipnav/core/ekf/engine/unexpected_slip.h"
 #include "slipnav/core/ekf/engine/wheel_queue.h"
 #include "slipnav/core/ekf/error_dynamics.h"
 #include "slipnav/core/ekf/models/gnss_fix.h"
 #include "slipnav/core/ekf/stationary_detector.h"
 #include "slipnav/core/ekf/stuck_detector.h"
 #include "slipnav/core/ins/ins_engine.h"
-#include "slipnav/core/ordering/cadence.h"
+#include "slipnav/core/ordering/sample_interval.h"
 
 namespace slipnav {
 
@@ -45,10 +46,12 @@ class FilterEngine {
   FilterEngine(const Planet& planet, const FilterSetup& setup);
 
   /// Restarts from `initial`. Wheel samples already received that are later than it are kept.
-  void initialise(const InitialState& initial);
+  void initialize(const InitialState& initial);
   /// Drops everything.
   void reset();
-  bool isInitialised() const { return initialised_; }
+  bool isInitialized() const { return initialized_; }
+  /// Counts the corrections since then; steps of an older epoch are void.
+  std::uint32_t epoch() const { return epoch_; }
 
   /// Replaces gates, measurement noise and standstill limits for all steps not yet processed. The
   /// rest of the setup must equal that of the constructor.
@@ -60,7 +63,7 @@ class FilterEngine {
   /// Records everything from the next start on in `history`, for a smoother. It changes no bit of the estimate.
   void keepHistory(std::shared_ptr<FilterHistory> history) { history_ = std::move(history); }
 
-  /// Adds a step; one of an old epoch, or out of sequence, is ignored.
+  /// Adds a step; one of an old epoch, or that does not start where the one before ends, is ignored.
   void push(const InsStep& step);
   /// Adds a wheel sample; false if it is not finite, repeated, or before what has been processed.
   bool push(const WheelMotion& wheels);
@@ -69,7 +72,7 @@ class FilterEngine {
 
   /// Moves the last processed state to another place. Knowledge of body-frame velocity, tilt, biases and
   /// slip is kept. Throws std::invalid_argument for impossible numbers, and when nothing has been processed yet.
-  Correction place(const Placement& placement);
+  Correction place(const PoseOverride& pose);
 
   /// The last processed state, for a mechanization that has lost its own and restarts from it. Nothing if
   /// nothing has been processed yet.
@@ -81,14 +84,10 @@ class FilterEngine {
     fixes_complete_until_ = std::max(fixes_complete_until_, stamp);
   }
 
-  /// The stamp up to which wheel samples are known without a hole between them.
-  Nanoseconds wheelsKnownUntil() const { return wheels_.knownUntil(); }
-  /// Likewise for fixes, which are waited for only with `gnss.use: always`; otherwise they are always known.
-  Nanoseconds fixesKnownUntil() const;
-
   /// Processes steps in order until none is certain, or until a measurement corrects the state. The correction must
   /// then reach the mechanization, whose new steps come back by push().
-  std::optional<Correction> advance(const EstimateSink& sink);
+  /// @param trusted end of a step by which a silent sensor may be judged to be silent; if absent, that of the newest
+  std::optional<Correction> advance(const EstimateSink& sink, std::optional<Nanoseconds> trusted = std::nullopt);
 
   /// Everything needed to resume elsewhere, except the origin of the map frame.
   InitialState snapshot() const;
@@ -101,12 +100,14 @@ class FilterEngine {
   const ErrorDynamics& dynamics() const { return dynamics_; }
   const WheelMonitor& wheelMonitor() const { return wheel_monitor_; }
   /// Whether the rover stands while its wheels turn, as of the last wheel sample.
-  bool isStuck() const { return stuck_.isStuck(); }
+  bool isStuck() const { return estimate_.stuck; }
   /// How often the estimate ran away from its wheels and was restarted.
   std::uint64_t recoveries() const { return recoveries_; }
 
  private:
-  bool isCertain(const InsStep& step) const;
+  /// The stamp up to which fixes are known without a hole; those not waited for are always known.
+  Nanoseconds fixesKnownUntil() const;
+  bool isCertain(Nanoseconds end, Nanoseconds trusted) const;
   Vector3 propagate(const InsStep& step);
   void endGap(const InsStep& step, const NavigationState& before);
   Vector3 referenceVelocity(const InsStep& step) const;
@@ -120,6 +121,9 @@ class FilterEngine {
   bool spinsOnTheSpot(const WheelMotion& wheels, const BodyMotion& motion);
   bool standOnSpinningWheels(const WheelMotion& wheels, const BodyMotion& motion);
   void recover(const WheelMotion& wheels);
+  /// The slip if it is significant, else 0. @param state its index
+  double shown(int state, double slip) const;
+  bool isSlip(double contradiction_mps) const;
   void openSlowSlip();
   void addForwardSpeed(const WheelMotion& wheels, const BodyMotion& motion, MeasurementSet& set);
   void addConstraints(Nanoseconds stamp, MeasurementSet& set);
@@ -130,10 +134,12 @@ class FilterEngine {
   void addFix(const PositionFix& fix, MeasurementSet& set) const;
   PlanarMotion soundMotion(const WheelMotion& wheels) const;
   bool update(MeasurementSet set);
-  bool use(const Measurement& measurement);
+  bool use(const Measurement& measurement, bool is_evidence = true);
+  void allowForUnexpectedSlip();
   void forget(int index, double variance);
   void take(const ErrorVector& error);
   void conditionOnGround();
+  void allowForBiasShift();
   void condition(int state, double variance, double value, double& envelope);
   void turnTo(double heading_rad, double heading_std_rad);
 
@@ -142,30 +148,32 @@ class FilterEngine {
   ErrorDynamics dynamics_;
   StationaryDetector detector_;
   GatedUpdate update_;
-  UnseenMotion unseen_motion_;
+  ImuGapUncertainty imu_gap_uncertainty_;
   StuckDetector stuck_;
   RunawayWatch runaway_;
   std::uint64_t recoveries_ = 0;
   WheelMonitor wheel_monitor_;
-  Tremor tremor_;
+  StandstillNoise standstill_noise_;
   NoiseAdaptation adaptation_;
   bool use_wheel_;
   bool use_nonholonomic_;
   bool use_zupt_;
   bool use_zaru_;
 
-  bool initialised_ = false;
+  bool initialized_ = false;
   NavigationState state_;
   VehicleState vehicle_;
   ErrorCovariance P_ = ErrorCovariance::Identity();
   ErrorTransition transition_;
-  std::uint64_t next_sequence_ = 0;
+  std::optional<Vector3> last_rate_b_;  ///< mean of the last step, with its bias [rad/s]
+  bool has_moved_ = false;              ///< a step was processed since the start
+  bool has_rested_ = false;             ///< a standstill was accepted since the last motion
   std::uint32_t epoch_ = 0;
 
   RingQueue<InsStep> steps_;
   WheelQueue wheels_;
   RingQueue<AntennaFix> fixes_;  ///< not yet applied, by stamp
-  Cadence fix_cadence_;          ///< of the processed ones
+  SampleInterval fix_interval_;  ///< of the processed ones
   Nanoseconds fixes_complete_until_ = 0;
   Nanoseconds used_fix_ = 0;  ///< stamp of the newest one that passed the gate, 0: none
   SlippingSpeed slipping_speed_;
@@ -174,7 +182,9 @@ class FilterEngine {
   double slow_envelope_ = 0.0;       ///< of the steady-state variance of slow slip
   double side_envelope_ = 0.0;
   LastingSlip lasting_slip_;
+  UnexpectedSlip unexpected_slip_;  ///< since the last standstill
   double slipping_way_m_ = 0.0;     ///< over which wheel speeds have contradicted
+  double contradiction_mps_ = 0.0;  ///< innovation of the last wheel speed if it failed its gate, else 0
   double surface_speed_mps_ = 0.0;  ///< of the wheels, last sample
   MeanMotion average_;              ///< over the open wheel interval
   MeanMotion constraint_average_;   ///< over the wheel intervals since the last constraint

@@ -47,6 +47,8 @@ class GatedUpdate {
 
   /// Limit of the normalized innovation squared for this many rows.
   double gate(int rows) const { return gate_[static_cast<std::size_t>(rows)]; }
+  /// The same for a standstill.
+  double zeroGate(int rows) const { return zero_gate_[static_cast<std::size_t>(rows)]; }
 
   const ComponentStatus& status(Component component) const { return status_[component]; }
 

@@ -3,7 +3,7 @@
 
 #include "slipnav/core/base/ring_queue.h"
 #include "slipnav/core/ekf/engine/filter_data.h"
-#include "slipnav/core/ordering/cadence.h"
+#include "slipnav/core/ordering/sample_interval.h"
 
 namespace slipnav {
 
@@ -11,7 +11,7 @@ namespace slipnav {
 class WheelQueue {
  public:
   /// @param longest_interval_s a longer interval between samples is an outage
-  explicit WheelQueue(double longest_interval_s) : cadence_(longest_interval_s) {}
+  explicit WheelQueue(double longest_interval_s) : interval_(longest_interval_s) {}
 
   /// Drops everything; samples wait for a start.
   void clear();
@@ -38,7 +38,7 @@ class WheelQueue {
 
  private:
   RingQueue<WheelMotion> samples_;
-  Cadence cadence_;  ///< of those taken
+  SampleInterval interval_;  ///< of those taken
   bool started_ = false;
   Nanoseconds complete_until_ = 0;
 };

@@ -14,6 +14,7 @@ namespace slipnav {
 /// Block `wheel`.
 struct WheelOdometryParams {
   std::string source = "auto";
+  double odometry_scale = 1.0;
   double stamp_delay_s = 0.0;
   double speed_std_mps = 0.01;
   double slip_noise_std = 0.006;

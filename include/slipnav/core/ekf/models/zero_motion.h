@@ -19,9 +19,9 @@ struct ZeroMotionParams {
 
 /// Variance of the rover's velocity at standstill, learned from the innovations of zero-velocity
 /// updates. E[r²] = H P Hᵀ + R, so R follows r² − H P Hᵀ, weighted by how much of the innovation R explains.
-class Tremor {
+class StandstillNoise {
  public:
-  explicit Tremor(const ZeroMotionParams& params);
+  explicit StandstillNoise(const ZeroMotionParams& params);
 
   /// Other limits and memory from now on; what was learned stays, within the limits.
   void retune(const ZeroMotionParams& params);

@@ -1,0 +1,58 @@
+#pragma once
+/// Slip on the way from one stop to the next that the filter did not consider possible.
+///
+/// Where the ground changes over tens of meters, the wheels pull the velocity along: what slip grows by in a second is
+/// less than what a tilt does. The stop then shows how fast the rover was not, long after the position was lost. Here
+/// the slip of the whole way is a polynomial of the distance with coefficients θ that the filter does not have. Beside
+/// the filter runs what each of them has done to its errors,
+///
+///     V ← Φ V + what the slip grows by,   U = H V,   V ← V − K U,
+///     Λ ← Λ + Uᵀ S⁻¹ U,   ξ ← ξ − Uᵀ S⁻¹ r,
+///
+/// so that θ = Λ⁻¹ ξ is what all innovations r together say of them, and V θ the error that it left in each state: the
+/// two-stage filter (B. Friedland, Treatment of bias in recursive filtering, IEEE TAC 14, 1969). It is exact where the
+/// filter is linear.
+
+#include <optional>
+
+#include "slipnav/core/ekf/error_dynamics.h"
+#include "slipnav/core/ekf/kalman_update.h"
+
+namespace slipnav {
+
+class UnexpectedSlip {
+ public:
+  /// The slip of a way is constant, linear and square in the distance since its begin.
+  static constexpr int kTerms = 3;
+
+  /// In the errors of the filter.
+  struct Finding {
+    double squared = 0.0;  ///< θᵀ (Λ + 1/prior) θ; chi-square with kTerms degrees if there is none
+    ErrorVector error = ErrorVector::Zero();      ///< estimate − truth
+    ErrorCovariance P = ErrorCovariance::Zero();  ///< to be added: θ is not known exactly
+  };
+
+  UnexpectedSlip() { begin(); }
+
+  /// The way begins here.
+  void begin();
+  /// @param way_m of the wheels' surface in this step
+  void propagate(const ErrorTransition& transition, double way_m);
+  /// The filter has forgotten this state.
+  void forget(int state) { from_slip_.row(state).setZero(); }
+  /// @param used what the filter has done with `measurement`; @param is_evidence false for what nobody has measured
+  void update(const Measurement& measurement, const UpdateGain& used, bool is_evidence);
+
+  /// What the way has shown so far; nothing before the first meter. A priori each term is as much as wheels on ice: 1.
+  std::optional<Finding> finding() const;
+
+ private:
+  using Terms = Eigen::Matrix<double, kTerms, 1>;
+
+  Eigen::Matrix<double, kErrorStates, kTerms> from_slip_;  ///< V, per power of the distance in meters
+  Eigen::Matrix<double, kTerms, kTerms> information_;      ///< Λ
+  Terms weighted_;                                         ///< ξ
+  double way_m_ = 0.0;
+};
+
+}  // namespace slipnav

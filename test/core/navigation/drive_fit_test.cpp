@@ -1,0 +1,108 @@
+#include "slipnav/core/navigation/drive_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "slipnav/core/base/rotation.h"
+
+namespace slipnav {
+namespace {
+
+constexpr double kBegin_s = 1000.0;
+constexpr double kRest_s = 20.0;
+constexpr double kEnd_s = 60.0;
+constexpr double kSpeed_mps = 0.5;
+constexpr double kHeading_rad = 2.0;
+constexpr double kScale = 0.9;  ///< of the wheels, which are smaller than they are taken for
+constexpr double kFixStd_m = 0.02;
+const Geodetic kReference{0.7, -1.4, 300.0};
+const Vector2 kStart_ne_m(3.0, -2.0);
+
+/// Rest, and then a bend to the right that becomes a straight line.
+class DriveFitTest : public ::testing::Test {
+ protected:
+  using Damage = std::function<void(double t_s, Vector2& fix_ne_m)>;
+
+  DriveFitTest() {
+    Vector2 driven_m = Vector2::Zero();
+    double heading_rad = 0.0;
+    for (int i = 0; i <= static_cast<int>(50.0 * kEnd_s); ++i) {
+      const double t_s = 0.02 * i;
+      const double rate = t_s > kRest_s && t_s <= kRest_s + 10.0 ? 0.1 : 0.0;
+      const double speed = t_s > kRest_s ? kSpeed_mps : 0.0;
+      heading_rad += 0.02 * rate;
+      driven_m += 0.02 * speed * Vector2(std::cos(heading_rad), std::sin(heading_rad));
+      WheelMotion wheels;
+      wheels.stamp = fromSeconds(kBegin_s + t_s);
+      wheels.motion.forward_mps = wheels.largest_speed_mps = speed;
+      recording_.push(wheels);
+      recording_.push(ImuSample{wheels.stamp, Vector3(0.0, 0.0, -9.8), Vector3(0.0, 0.0, rate)});
+      if (i % 10 == 0) {
+        way_.push_back({t_s, driven_m});
+      }
+    }
+  }
+
+  /// @param late_s the stamps are this much later than the fixes
+  std::vector<PositionFix> fixes(double late_s, const Damage& damage) const {
+    std::vector<PositionFix> fixes;
+    for (const auto& [t_s, driven_m] : way_) {
+      Vector2 ne_m = kStart_ne_m + kScale * (Eigen::Rotation2Dd(kHeading_rad) * driven_m);
+      damage(t_s, ne_m);
+      PositionFix fix;
+      fix.stamp = fromSeconds(kBegin_s + t_s + late_s);
+      fix.position = kReference;
+      fix.position.latitude_rad += ne_m.x() / planet_.meridianRadius(kReference.latitude_rad);
+      fix.position.longitude_rad +=
+          ne_m.y() / planet_.transverseRadius(kReference.latitude_rad) / std::cos(kReference.latitude_rad);
+      fix.variance_ned_m2.setConstant(kFixStd_m * kFixStd_m);
+      fixes.push_back(fix);
+    }
+    return fixes;
+  }
+
+  DriveTrack track() const { return {recording_, fromSeconds(kBegin_s), 0.0, Vector3::Zero()}; }
+
+  std::optional<double> lag(const std::vector<PositionFix>& fixes, double until_s) const {
+    return lagOfFixes(planet_, fixes, track(), kReference, fromSeconds(kBegin_s), fromSeconds(kBegin_s + until_s));
+  }
+
+  static void kNone(double, Vector2&) {}
+
+  const Planet planet_ = Planet::byName("earth");
+  StartRecording recording_{StationaryParams{}, ImuFloor{}, 9.8, 5.0, 600.0};
+  std::vector<std::pair<double, Vector2>> way_;
+};
+
+TEST_F(DriveFitTest, FindsHeadingStartAndScale) {
+  const std::optional<DriveFit> fit =
+      fitDrive(planet_, fixes(0.0, kNone), track(), kReference, fromSeconds(kBegin_s), fromSeconds(kBegin_s + kEnd_s));
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->heading_rad, kHeading_rad, 0.01);
+  EXPECT_NEAR(fit->scale, kScale, 0.01);
+  EXPECT_LT((fit->start_ne_m - kStart_ne_m).norm(), 0.05);
+  EXPECT_LT(fit->residual_m, 0.05);
+  EXPECT_NEAR(fit->fix_std_m, kFixStd_m * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(fit->distance_m, track().reach(), 0.1);
+}
+
+TEST_F(DriveFitTest, FindsTheLagOfAnotherClockInBothDirections) {
+  EXPECT_EQ(lag(fixes(0.0, kNone), 50.0), std::nullopt);
+  EXPECT_NEAR(lag(fixes(9.0, kNone), 50.0).value_or(0.0), -9.0, 0.5);
+  EXPECT_NEAR(lag(fixes(-9.0, kNone), 50.0).value_or(0.0), 9.0, 0.5);
+}
+
+/// A lag that moved the newest fixes beyond the recording would omit just those that contradict.
+TEST_F(DriveFitTest, FixesThatWorsenInTheEndAreNotThoseOfAnotherClock) {
+  const Damage reflected = [](double t_s, Vector2& ne_m) { ne_m += t_s > 45.0 ? Vector2(4.0, 4.0) : Vector2::Zero(); };
+  std::vector<PositionFix> on_the_straight_line = fixes(0.0, reflected);
+  on_the_straight_line.erase(on_the_straight_line.begin(), on_the_straight_line.begin() + 160);
+  EXPECT_EQ(lag(on_the_straight_line, kEnd_s), std::nullopt);
+}
+
+}  // namespace
+}  // namespace slipnav
