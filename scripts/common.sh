@@ -20,9 +20,10 @@ usage_error() {
   exit 2
 }
 
-# step WHAT LOG COMMAND...: one line of progress, the output into build/log/LOG; on failure the end of that log.
+# step WHAT LOG COMMAND...: one line of progress, another of the time if it took long, the output into build/log/LOG; on
+# failure the end of that log.
 step() {
-  local what="$1" log="$LOGS/$2" status=0
+  local what="$1" log="$LOGS/$2" status=0 began="$SECONDS"
   shift 2
   mkdir -p "$LOGS"
   say "$what"
@@ -30,6 +31,8 @@ step() {
   if ((status != 0)); then
     tail -n 40 "$log" | cut -c 1-300 >&2
     say "$what: failed with status $status (all of it: ${log#"$PWD/"})"
+  elif ((SECONDS - began >= 20)); then
+    say "$what: done after $((SECONDS - began)) s"
   fi
   return "$status"
 }

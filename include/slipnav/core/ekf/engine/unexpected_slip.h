@@ -20,6 +20,7 @@
 
 namespace slipnav {
 
+/// What the way since the last standstill says of its slip.
 class UnexpectedSlip {
  public:
   /// The slip of a way is constant, linear and square in the distance since its begin.
