@@ -98,6 +98,9 @@ void HealthMonitor::noteFilter(const FilterEngine& filter) {
   if (filter.recoveries() != std::exchange(recoveries_, filter.recoveries())) {
     note("faster than any slip explains: velocity and tilt restarted from wheels and gravity", now);
   }
+  if (filter.unexpectedSlips() != std::exchange(unexpected_slips_, filter.unexpectedSlips())) {
+    note("slip unnoticed for meters: velocity and position corrected", now);
+  }
   if (filter.isStuck()) {
     note("stuck: the wheels turn but the rover does not move", now);
   }

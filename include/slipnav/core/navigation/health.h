@@ -58,10 +58,11 @@ class HealthMonitor {
   std::vector<std::string> wheel_names_;
   std::array<std::uint64_t, kComponents> rejected_ = {};  ///< at the last check of the filter
   Nanoseconds newest_wheels_ = 0;
-  double wheel_speed_mps_ = 0.0;   ///< forward, of the newest wheel sample
-  Nanoseconds against_since_ = 0;  ///< wheels and vehicle go opposite ways; 0: they do not
-  std::uint64_t recoveries_ = 0;   ///< at the last check
-  StampFaults stamp_faults_;       ///< as last noted
+  double wheel_speed_mps_ = 0.0;        ///< forward, of the newest wheel sample
+  Nanoseconds against_since_ = 0;       ///< wheels and vehicle go opposite ways; 0: they do not
+  std::uint64_t recoveries_ = 0;        ///< at the last check
+  std::uint64_t unexpected_slips_ = 0;  ///< likewise
+  StampFaults stamp_faults_;            ///< as last noted
   std::map<std::string, double> sizes_;
   Alarms alarms_;
 };

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/square.h"
+#include "core/ekf/possible_slip.h"
 
 namespace slipnav {
 namespace {
@@ -14,9 +15,6 @@ constexpr double kMeanToMean = 2.0 / 3.0;
 constexpr double kDominant = 0.5;
 /// Ground may change at any time: even the smoothest road is assumed to have this much.
 constexpr double kLeastSlowSlip = 0.004;
-/// A vehicle is not faster than its wheels for long. Where it seems so their radius is wrong, by no more than this;
-/// what is beyond is an error of the estimate, which must not make room for itself.
-constexpr double kMostNegativeSlip = -1.0 / 3.0;
 /// IMU vibration acts as white noise below this time and as a bias beyond: after this long a walk of the bias has moved
 /// the velocity as much as the noise has.
 constexpr double kWhiteFor_s = 20.0;
@@ -32,6 +30,14 @@ double atLeastConfigured(double factor) { return std::max(1.0, factor); }
 /// Only an innovation dominated by persistent slip, as when the rover stops, says anything about it.
 double shareOfPersistentSlip(const Innovation1& innovation) {
   return innovation.by_persistent_slip > kDominant * innovation.variance ? innovation.by_persistent_slip : 0.0;
+}
+
+/// Slip that lasts is a property of this ground and does not return to zero: the wheels would pull the velocity along
+/// within tens of meters. It varies by as much as usual ground does along the way.
+/// @param usual fraction of the variance in `transition` that usual ground has
+void holdSlowSlip(double usual, ErrorTransition& transition) {
+  transition.decay(kSlowSlip - 9) = 1.0;
+  transition.noise(kSlowSlip) *= usual;
 }
 
 }  // namespace
@@ -85,10 +91,14 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   ground.fast_slip_variance *= factor.fast_slip;
   ground.slow_slip_variance =
       ground.slow_slip_variance * factor.slow_slip + square(slope_slip_ * C_b_to_n(2, 0)) + square(kLeastSlowSlip);
+  const double usual_variance = ground.slow_slip_variance;
   // Ground on which the wheels lose a third of their travel is not ground with a few percent of slip.
   ground.slow_slip_variance = std::max(ground.slow_slip_variance, square(std::max(slow_slip, kMostNegativeSlip)));
   ground.side_slip_variance = ground.side_slip_variance * factor.side_slip + square(slope_slip_ * C_b_to_n(2, 1));
   dynamics.rollOver(ground, transition);
+  if (slow_slip != 0.0) {
+    holdSlowSlip(usual_variance / ground.slow_slip_variance, transition);
+  }
 
   const ImuNoiseDensity shaking = meter_.density();
   const double white = scales_.factor(kVibrationNoise);

@@ -46,25 +46,26 @@ void UnexpectedSlip::update(const Measurement& measurement, const UpdateGain& us
   from_slip_ -= used.K.lazyProduct(seen);
 }
 
-/// In powers of the distance relative to the whole way, so that each coefficient is the slip that it contributes.
-std::optional<UnexpectedSlip::Finding> UnexpectedSlip::finding() const {
-  if (way_m_ < kShortestWay_m) {
-    return std::nullopt;
-  }
-  const Eigen::Matrix<double, kTerms, kTerms> scale = powersOf(1.0 / way_m_).asDiagonal();
-  Eigen::Matrix<double, kTerms, kTerms> precision = scale * information_ * scale;
+UnexpectedSlip::Posterior UnexpectedSlip::posterior() const {
+  const TermMatrix scale = powersOf(1.0 / way_m_).asDiagonal();
+  TermMatrix precision = scale * information_ * scale;
   precision.diagonal().array() += 1.0;
-  const Eigen::Matrix<double, kTerms, kTerms> covariance =
-      precision.llt().solve(Eigen::Matrix<double, kTerms, kTerms>::Identity());
-  const Terms weighted = scale * weighted_;
-  const Terms slip = covariance * weighted;
-  const Eigen::Matrix<double, kErrorStates, kTerms> from_slip = from_slip_ * scale;
-  Finding finding;
-  finding.squared = weighted.dot(slip);
-  finding.error = from_slip * slip;
-  const ErrorCovariance P = from_slip * covariance * from_slip.transpose();
-  finding.P = 0.5 * (P + P.transpose());
-  return finding;
+  return {scale * weighted_, precision.llt().solve(TermMatrix::Identity())};
+}
+
+double UnexpectedSlip::squared() const {
+  if (way_m_ < kShortestWay_m) {
+    return 0.0;
+  }
+  const Posterior slip = posterior();
+  return slip.weighted.dot(slip.covariance * slip.weighted);
+}
+
+UnexpectedSlip::Finding UnexpectedSlip::finding() const {
+  const Posterior slip = posterior();
+  const Eigen::Matrix<double, kErrorStates, kTerms> from_slip = from_slip_ * powersOf(1.0 / way_m_).asDiagonal();
+  const ErrorCovariance P = from_slip * slip.covariance * from_slip.transpose();
+  return {from_slip * (slip.covariance * slip.weighted), 0.5 * (P + P.transpose())};
 }
 
 }  // namespace slipnav

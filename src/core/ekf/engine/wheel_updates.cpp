@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/square.h"
+#include "core/ekf/possible_slip.h"
 #include "slipnav/core/ekf/engine/filter_engine.h"
 #include "slipnav/core/ekf/engine/filter_history.h"
 
@@ -197,17 +198,21 @@ void FilterEngine::allowForBiasShift() {
 }
 
 /// Only where the way since the last stop contradicts the filter as a standstill must in order to fail its gate: less
-/// is as well explained by a shift of the accelerometers' biases.
+/// is as well explained by a shift of the accelerometers' biases. Nor where the slip would be one that no ground has.
 void FilterEngine::allowForUnexpectedSlip() {
-  const std::optional<UnexpectedSlip::Finding> found = unexpected_slip_.finding();
-  if (!found || found->squared <= update_.zeroGate(UnexpectedSlip::kTerms)) {
+  if (setup_.vehicle.slow_slip_std <= 0.0 || unexpected_slip_.squared() <= update_.zeroGate(UnexpectedSlip::kTerms)) {
     return;
   }
-  P_ += found->P;
+  const UnexpectedSlip::Finding found = unexpected_slip_.finding();
+  if (!canLast(vehicle_.slow_slip - found.error(kSlowSlip))) {
+    return;
+  }
+  ++unexpected_slips_;
+  P_ += found.P;
   if (history_) {
     history_->advance(P_);
   }
-  take(found->error);
+  take(found.error);
   unexpected_slip_.begin();
 }
 
@@ -218,6 +223,7 @@ bool FilterEngine::drive(const WheelMotion& wheels, const BodyMotion& motion) {
     unexpected_slip_.begin();
     allowForBiasShift();
   }
+  allowForUnexpectedSlip();
   estimate_.stationary = false;
   estimate_.wheel_speed_used = false;
   if (use_wheel_) {

@@ -5,10 +5,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
+#include "core/navigation/navigator.h"
 #include "random_states.h"
 #include "recorded_drive.h"
 #include "simulation/random.h"
+#include "slipnav/core/navigation/health.h"
 
 namespace slipnav::test {
 namespace {
@@ -102,14 +105,13 @@ TEST(UnexpectedSlip, IsAsIfItHadBeenEstimatedFromTheBegin) {
     x += used->K * m.residual;
     whole.update(model, measured);
   }
-  const std::optional<UnexpectedSlip::Finding> found = beside.finding();
-  ASSERT_TRUE(found);
+  const UnexpectedSlip::Finding found = beside.finding();
   const ErrorVector expected = whole.x.head<kErrorStates>();
   EXPECT_GT((x - expected).norm(), 0.01 * expected.norm()) << "nothing to find";
-  EXPECT_LT((x - found->error - expected).norm(), 1e-8 * expected.norm());
+  EXPECT_LT((x - found.error - expected).norm(), 1e-8 * expected.norm());
   const ErrorCovariance P_expected = whole.P.topLeftCorner<kErrorStates, kErrorStates>();
   EXPECT_GT((P - P_expected).norm(), 0.01 * P_expected.norm()) << "nothing to find";
-  EXPECT_LT((P + found->P - P_expected).norm(), 1e-8 * P_expected.norm());
+  EXPECT_LT((P + found.P - P_expected).norm(), 1e-8 * P_expected.norm());
 }
 
 TEST(UnexpectedSlip, OfWhatNobodyMeasuredIsNothing) {
@@ -120,10 +122,10 @@ TEST(UnexpectedSlip, OfWhatNobodyMeasuredIsNothing) {
   Measurement m = randomMeasurement(random);
   m.residual.setConstant(5.0);
   slip.update(m, updateCovariance(m, P).value(), false);
-  EXPECT_EQ(slip.finding()->squared, 0.0);
+  EXPECT_EQ(slip.squared(), 0.0);
   m.residual.setConstant(5.0);
   slip.update(m, updateCovariance(m, P).value(), true);
-  EXPECT_GT(slip.finding()->squared, 0.0);
+  EXPECT_GT(slip.squared(), 0.0);
 }
 
 TEST(UnexpectedSlip, HasDoneNothingToAStateThatIsForgotten) {
@@ -134,9 +136,9 @@ TEST(UnexpectedSlip, HasDoneNothingToAStateThatIsForgotten) {
   Measurement m = randomMeasurement(random);
   m.residual.setConstant(5.0);
   slip.update(m, updateCovariance(m, P).value(), true);
-  EXPECT_NE(slip.finding()->error(kPosition), 0.0);
+  EXPECT_NE(slip.finding().error(kPosition), 0.0);
   slip.forget(kPosition);
-  const UnexpectedSlip::Finding found = slip.finding().value();
+  const UnexpectedSlip::Finding found = slip.finding();
   EXPECT_EQ(found.error(kPosition), 0.0);
   EXPECT_EQ(found.P.row(kPosition).norm(), 0.0);
   EXPECT_NE(found.error(kVelocity), 0.0);
@@ -144,37 +146,120 @@ TEST(UnexpectedSlip, HasDoneNothingToAStateThatIsForgotten) {
 
 TEST(UnexpectedSlip, NeedsAWay) {
   sim::RandomStream random(5, "unexpected slip");
+  ErrorCovariance P = randomCovariance(random);
   UnexpectedSlip slip;
-  EXPECT_FALSE(slip.finding());
-  slip.propagate(randomTransition(random), 2.0);
-  EXPECT_TRUE(slip.finding());
+  const auto drive = [&](double way_m) {
+    slip.propagate(randomTransition(random), way_m);
+    Measurement m = randomMeasurement(random);
+    m.residual.setConstant(5.0);
+    slip.update(m, updateCovariance(m, P).value(), true);
+  };
+  drive(0.9);
+  EXPECT_EQ(slip.squared(), 0.0);
+  drive(0.2);
+  EXPECT_GT(slip.squared(), 0.0);
   slip.begin();
-  EXPECT_FALSE(slip.finding());
+  EXPECT_EQ(slip.squared(), 0.0);
 }
 
-/// Half of the way on sand that begins gradually: the drive's only stop is its end.
+constexpr const char* kAlarm = "slip unnoticed for meters: velocity and position corrected";
+
+/// A drive without stops, after which the filter stands still at the end of its samples.
+struct Outcome {
+  EstimateLog log;
+  std::uint64_t slips = 0;
+  Alarms alarms;
+};
+
+Outcome runWithHealth(const Config& config, const InitialState& initial, const std::vector<DriveSample>& samples) {
+  const NavigationSetup setup = config.navigation();
+  Navigator navigator(Planet::byName(config.planet), setup.imu_input, setup.filter);
+  navigator.initialize(initial);
+  HealthMonitor health(setup.filter);
+  Outcome run;
+  const auto sink = [&run](const Estimate& estimate, const ErrorCovariance& P) { run.log.push_back({estimate, P}); };
+  for (const DriveSample& sample : samples) {
+    if (sample.is_imu) {
+      navigator.push(sample.imu, sink);
+    } else {
+      navigator.push(sample.wheels, sink);
+    }
+    health.noteFilter(navigator.filter());
+  }
+  run.slips = navigator.filter().unexpectedSlips();
+  run.alarms = health.alarms();
+  return run;
+}
+
+/// A way on loose ground that is too short to show it: the drive's only stop does, at its end.
 TEST(UnexpectedSlip, IsFoundAtTheStop) {
-  Config config = driveConfig(50.0);
-  config.simulator.terrain = "unpaved";
-  config.simulator.ground.slip_offset = 0.4;
+  Config config = driveConfig(30.0);
+  config.simulator.terrain = "gravel";
+  config.simulator.ground.slip_offset = 0.2;
   const RecordedDrive drive = recordDrive(config);
-  const EstimateLog log = runNavigator(config, drive.initial, drive.samples);
-  const auto first_stop = std::find_if(log.begin(), log.end(), [&](const LoggedEstimate& logged) {
+  const Outcome run = runWithHealth(config, drive.initial, drive.samples);
+  const auto first_stop = std::find_if(run.log.begin(), run.log.end(), [&](const LoggedEstimate& logged) {
     return logged.estimate.stationary && logged.estimate.nav.stamp > drive.initial.nav.stamp + 20 * kSecond;
   });
-  ASSERT_NE(first_stop, log.end());
+  ASSERT_NE(first_stop, run.log.end());
+  ASSERT_EQ(run.alarms.count(kAlarm), 1U);
+  EXPECT_GE(run.alarms.at(kAlarm).first, first_stop->estimate.nav.stamp);
   const Planet planet = Planet::byName(config.planet);
   const auto off_m = [&](const LoggedEstimate& logged) {
     return positionDifference(planet, logged.estimate.nav.position, drive.end.position).head<2>().norm();
   };
   const double before_m = off_m(*std::prev(first_stop));
-  const double after_m = off_m(log.back());
-  const auto std_m = [](const LoggedEstimate& logged) {
-    return std::sqrt(logged.P(kPosition, kPosition) + logged.P(kPosition + 1, kPosition + 1));
-  };
-  EXPECT_GT(before_m, 3.0 * std_m(*std::prev(first_stop))) << "nothing to find";
+  const double after_m = off_m(run.log.back());
+  const ErrorCovariance& P = run.log.back().P;
   EXPECT_LT(after_m, 0.5 * before_m);
-  EXPECT_LT(after_m, 3.0 * std_m(log.back()));
+  EXPECT_LT(after_m, 3.0 * std::sqrt(P(kPosition, kPosition) + P(kPosition + 1, kPosition + 1)));
+}
+
+/// Sand that begins gradually, and no stop that would show it.
+TEST(UnexpectedSlip, IsFoundWhileDriving) {
+  constexpr double kDistance_m = 200.0;
+  Config config = driveConfig(kDistance_m);
+  config.simulator.terrain = "gravel";
+  config.simulator.ground.slip_offset = 0.4;
+  const RecordedDrive drive = recordDrive(config);
+  const Outcome run = runWithHealth(config, drive.initial, drive.samples);
+  EXPECT_GE(run.slips, 1U);
+  EXPECT_EQ(run.alarms.count(kAlarm), 1U);
+  const auto moving = std::find_if(run.log.rbegin(), run.log.rend(), [](const LoggedEstimate& logged) {
+    return !logged.estimate.stationary && logged.estimate.nav.v_eb_n.norm() > 0.2;
+  });
+  ASSERT_NE(moving, run.log.rend());
+  const Vector3 off =
+      positionDifference(Planet::byName(config.planet), moving->estimate.nav.position, drive.end.position);
+  std::printf("%.2f m off, slip %.2f\n", off.head<2>().norm(), moving->estimate.vehicle.slow_slip);
+  EXPECT_LT(off.head<2>().norm(), 0.06 * kDistance_m);
+}
+
+/// Wheels half as large as configured; nothing slips like that.
+TEST(UnexpectedSlip, IsNoSlipThatNoGroundHas) {
+  Config config = driveConfig(60.0);
+  config.simulator.terrain = "paved";
+  const RecordedDrive drive = recordDrive(config);
+  EXPECT_EQ(runWithHealth(config, drive.initial, drive.samples).slips, 0U) << "sound wheels";
+  std::vector<DriveSample> samples = drive.samples;
+  for (DriveSample& sample : samples) {
+    sample.wheels.motion.forward_mps *= 0.55;
+    for (double& speed : sample.wheels.circumferential_mps) {
+      speed *= 0.55;
+    }
+    sample.wheels.largest_speed_mps *= 0.55;
+  }
+  EXPECT_EQ(runWithHealth(config, drive.initial, samples).slips, 0U);
+}
+
+TEST(UnexpectedSlip, IsNotThereWhereNoneIsConfigured) {
+  Config config = driveConfig(50.0);
+  config.simulator.terrain = "unpaved";
+  config.simulator.ground.slip_offset = 0.4;
+  const RecordedDrive drive = recordDrive(config);
+  EXPECT_GE(runWithHealth(config, drive.initial, drive.samples).slips, 1U);
+  config.vehicle.slow_slip_std = 0.0;
+  EXPECT_EQ(runWithHealth(config, drive.initial, drive.samples).slips, 0U);
 }
 
 }  // namespace

@@ -103,6 +103,8 @@ class FilterEngine {
   bool isStuck() const { return estimate_.stuck; }
   /// How often the estimate ran away from its wheels and was restarted.
   std::uint64_t recoveries() const { return recoveries_; }
+  /// How often the way since the last stop has shown a slip that was not expected.
+  std::uint64_t unexpectedSlips() const { return unexpected_slips_; }
 
  private:
   /// The stamp up to which fixes are known without a hole; those not waited for are always known.
@@ -183,6 +185,7 @@ class FilterEngine {
   double side_envelope_ = 0.0;
   LastingSlip lasting_slip_;
   UnexpectedSlip unexpected_slip_;  ///< since the last standstill
+  std::uint64_t unexpected_slips_ = 0;
   double slipping_way_m_ = 0.0;     ///< over which wheel speeds have contradicted
   double contradiction_mps_ = 0.0;  ///< innovation of the last wheel speed if it failed its gate, else 0
   double surface_speed_mps_ = 0.0;  ///< of the wheels, last sample

@@ -13,8 +13,6 @@
 /// two-stage filter (B. Friedland, Treatment of bias in recursive filtering, IEEE TAC 14, 1969). It is exact where the
 /// filter is linear.
 
-#include <optional>
-
 #include "slipnav/core/ekf/error_dynamics.h"
 #include "slipnav/core/ekf/kalman_update.h"
 
@@ -28,7 +26,6 @@ class UnexpectedSlip {
 
   /// In the errors of the filter.
   struct Finding {
-    double squared = 0.0;  ///< θᵀ (Λ + 1/prior) θ; chi-square with kTerms degrees if there is none
     ErrorVector error = ErrorVector::Zero();      ///< estimate − truth
     ErrorCovariance P = ErrorCovariance::Zero();  ///< to be added: θ is not known exactly
   };
@@ -44,14 +41,24 @@ class UnexpectedSlip {
   /// @param used what the filter has done with `measurement`; @param is_evidence false for what nobody has measured
   void update(const Measurement& measurement, const UpdateGain& used, bool is_evidence);
 
-  /// What the way has shown so far; nothing before the first meter. A priori each term is as much as wheels on ice: 1.
-  std::optional<Finding> finding() const;
+  /// θᵀ (Λ + 1/prior) θ of the way so far: chi-square with kTerms degrees of freedom if there is no such slip; 0 before
+  /// the first meter. A priori each term is as much as wheels on ice: 1.
+  double squared() const;
+  Finding finding() const;
 
  private:
   using Terms = Eigen::Matrix<double, kTerms, 1>;
+  using TermMatrix = Eigen::Matrix<double, kTerms, kTerms>;
+
+  /// In powers of the distance relative to the whole way, so that each coefficient is the slip that it contributes.
+  struct Posterior {
+    Terms weighted;         ///< ξ
+    TermMatrix covariance;  ///< (Λ + 1/prior)⁻¹
+  };
+  Posterior posterior() const;
 
   Eigen::Matrix<double, kErrorStates, kTerms> from_slip_;  ///< V, per power of the distance in meters
-  Eigen::Matrix<double, kTerms, kTerms> information_;      ///< Λ
+  TermMatrix information_;                                 ///< Λ
   Terms weighted_;                                         ///< ξ
   double way_m_ = 0.0;
 };
