@@ -139,7 +139,7 @@ TEST(LooseSand, IsUnderstoodAtTheFirstStop) {
 }
 
 /// Nor does it need a stop: what the way so far says of its slip is listened to while driving. Otherwise 20 % of the
-/// distance is lost, and the position NEES is near 100. What is lost until it shows remains: here half of the drive.
+/// distance is lost, and the position NEES is near 60. What is lost until it shows remains: here half of the drive.
 TEST(LooseSand, IsUnderstoodWithoutAStop) {
   constexpr int kDrives = 4;
   constexpr double kLargestError_pct = 6.0;
