@@ -2,8 +2,8 @@
 /// Slip on the way from one stop to the next that the filter did not consider possible.
 ///
 /// Where the ground changes over tens of meters, the wheels pull the velocity along: what slip grows by in a second is
-/// less than what a tilt does. The stop then shows how fast the rover was not, long after the position was lost. Here
-/// the slip of the whole way is a polynomial of the distance with coefficients θ that the filter does not have. Beside
+/// less than what a tilt does. A stop, or many small contradictions, show it long after the position was lost. Here the
+/// slip of the whole way is a polynomial of the distance with coefficients θ that the filter does not have. Beside
 /// the filter runs what each of them has done to its errors,
 ///
 ///     V ← Φ V + what the slip grows by,   U = H V,   V ← V − K U,
@@ -44,6 +44,7 @@ class UnexpectedSlip {
   /// θᵀ (Λ + 1/prior) θ of the way so far: chi-square with kTerms degrees of freedom if there is no such slip; 0 before
   /// the first meter. A priori each term is as much as wheels on ice: 1.
   double squared() const;
+  /// Once that is more than 0.
   Finding finding() const;
 
  private:
