@@ -32,14 +32,6 @@ double shareOfPersistentSlip(const Innovation1& innovation) {
   return innovation.by_persistent_slip > kDominant * innovation.variance ? innovation.by_persistent_slip : 0.0;
 }
 
-/// Slip that lasts is a property of this ground and does not return to zero: the wheels would pull the velocity along
-/// within tens of meters. It varies by as much as usual ground does along the way.
-/// @param usual fraction of the variance in `transition` that usual ground has
-void holdSlowSlip(double usual, ErrorTransition& transition) {
-  transition.decay(kSlowSlip - 9) = 1.0;
-  transition.noise(kSlowSlip) *= usual;
-}
-
 }  // namespace
 
 NoiseAdaptation::NoiseAdaptation(const NoiseScaleParams& params, const ImuNoiseParams& imu, double slope_slip)
@@ -91,14 +83,10 @@ void NoiseAdaptation::addNoise(const ErrorDynamics& dynamics, const InsStep& ste
   ground.fast_slip_variance *= factor.fast_slip;
   ground.slow_slip_variance =
       ground.slow_slip_variance * factor.slow_slip + square(slope_slip_ * C_b_to_n(2, 0)) + square(kLeastSlowSlip);
-  const double usual_variance = ground.slow_slip_variance;
   // Ground on which the wheels lose a third of their travel is not ground with a few percent of slip.
   ground.slow_slip_variance = std::max(ground.slow_slip_variance, square(std::max(slow_slip, kMostNegativeSlip)));
   ground.side_slip_variance = ground.side_slip_variance * factor.side_slip + square(slope_slip_ * C_b_to_n(2, 1));
   dynamics.rollOver(ground, transition);
-  if (slow_slip != 0.0) {
-    holdSlowSlip(usual_variance / ground.slow_slip_variance, transition);
-  }
 
   const ImuNoiseDensity shaking = meter_.density();
   const double white = scales_.factor(kVibrationNoise);

@@ -17,6 +17,9 @@ constexpr double kLongestFixInterval_s = 2.5;
 /// An estimated slip beyond this many standard deviations is not an IMU error.
 constexpr double kShownSigmas = 2.0;
 
+/// Slip over fewer of its lengths is fast slip.
+constexpr double kLongerThanFast = 10.0;
+
 /// Significant fast slip is not pulled back to zero as if it were usual for the ground: where soft ground begins, the
 /// wheels would pull the velocity along within a meter. It is driven by its own square until it has passed. That is for
 /// wheels that outrun the vehicle: one that is faster than its wheels is slowed down by them within a second.
@@ -24,6 +27,14 @@ void holdShownSlip(double slip, double ground_variance, ErrorTransition& transit
   if (slip > 0.0 && square(slip) > ground_variance && ground_variance > 0.0) {
     transition.noise(kFastSlip) *= square(slip) / ground_variance;
   }
+}
+
+/// Slip that nobody expected is a property of this ground. If it returned to zero it would be forgotten within tens of
+/// meters, and the wheels would pull the velocity along again. It varies by as much as usual ground does along the way.
+/// @param usual fraction of the variance in `transition` that usual ground has
+void holdSlowSlip(double usual, ErrorTransition& transition) {
+  transition.decay(kSlowSlip - 9) = 1.0;
+  transition.noise(kSlowSlip) *= usual;
 }
 
 }  // namespace
@@ -43,7 +54,8 @@ FilterEngine::FilterEngine(const Planet& planet, const FilterSetup& setup)
       use_zupt_(setup.filter.uses("zupt")),
       use_zaru_(setup.filter.uses("zaru")),
       wheels_(setup.filter.max_wheel_interval_s),
-      fix_interval_(kLongestFixInterval_s) {}
+      fix_interval_(kLongestFixInterval_s),
+      unexpected_slip_(kLongerThanFast * setup.vehicle.fast_slip_length_m) {}
 
 void FilterEngine::reset() {
   initialized_ = false;
@@ -91,6 +103,7 @@ void FilterEngine::initialize(const InitialState& initial) {
   contradiction_mps_ = 0.0;
   lasting_slip_.reset();
   unexpected_slip_.begin();
+  slow_slip_lasts_ = false;
   way_since_wheels_m_ = slow_envelope_ = side_envelope_ = 0.0;
   steps_.clear();
   while (!fixes_.empty() && stampOf(fixes_.front()) <= initial.nav.stamp) {
@@ -221,8 +234,12 @@ Vector3 FilterEngine::propagate(const InsStep& step) {
   if (estimate_.stationary) {
     transition_.motion_from_offset.setZero();  // these rates are noise
   }
-  adaptation_.addNoise(dynamics_, step, step.state, shown(kSlowSlip, vehicle_.slow_slip),
-                       surface_speed_mps_ * duration_s, transition_);
+  const double slow_slip = shown(kSlowSlip, vehicle_.slow_slip);
+  adaptation_.addNoise(dynamics_, step, step.state, slow_slip, surface_speed_mps_ * duration_s, transition_);
+  slow_slip_lasts_ = slow_slip_lasts_ && slow_slip != 0.0;
+  if (slow_slip_lasts_) {
+    holdSlowSlip(dynamics_.ground().slow_slip_variance / adaptation_.ground().slow_slip_variance, transition_);
+  }
   // A slower rover does not hold its slip: its IMU would drift meanwhile.
   if (state_.v_eb_n.norm() * setup_.filter.max_rejection_s > setup_.vehicle.fast_slip_length_m) {
     holdShownSlip(shown(kFastSlip, vehicle_.fast_slip), adaptation_.ground().fast_slip_variance, transition_);

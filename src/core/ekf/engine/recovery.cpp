@@ -34,6 +34,7 @@ void FilterEngine::recover(const WheelMotion& wheels) {
   slow_envelope_ = side_envelope_ = 0.0;
   lasting_slip_.reset();
   unexpected_slip_.begin();
+  slow_slip_lasts_ = false;
   stuck_.reset();
 }
 

@@ -5,8 +5,6 @@
 namespace slipnav {
 namespace {
 
-constexpr double kShortestWay_m = 1.0;
-
 using Terms = Eigen::Matrix<double, UnexpectedSlip::kTerms, 1>;
 
 /// 1, w, w², …
@@ -54,7 +52,7 @@ UnexpectedSlip::Posterior UnexpectedSlip::posterior() const {
 }
 
 double UnexpectedSlip::squared() const {
-  if (way_m_ < kShortestWay_m) {
+  if (way_m_ < shortest_way_m_) {
     return 0.0;
   }
   const Posterior slip = posterior();
@@ -65,7 +63,8 @@ UnexpectedSlip::Finding UnexpectedSlip::finding() const {
   const Posterior slip = posterior();
   const Eigen::Matrix<double, kErrorStates, kTerms> from_slip = from_slip_ * powersOf(1.0 / way_m_).asDiagonal();
   const ErrorCovariance P = from_slip * slip.covariance * from_slip.transpose();
-  return {from_slip * (slip.covariance * slip.weighted), 0.5 * (P + P.transpose())};
+  const Terms theta = slip.covariance * slip.weighted;
+  return {-theta.sum(), from_slip * theta, 0.5 * (P + P.transpose())};
 }
 
 }  // namespace slipnav

@@ -204,10 +204,11 @@ void FilterEngine::allowForUnexpectedSlip() {
     return;
   }
   const UnexpectedSlip::Finding found = unexpected_slip_.finding();
-  if (!canLast(vehicle_.slow_slip - found.error(kSlowSlip))) {
+  if (!canLast(found.slip) || !canLast(vehicle_.slow_slip - found.error(kSlowSlip))) {
     return;
   }
   ++unexpected_slips_;
+  slow_slip_lasts_ = true;
   P_ += found.P;
   if (history_) {
     history_->advance(P_);

@@ -79,7 +79,7 @@ TEST(UnexpectedSlip, IsAsIfItHadBeenEstimatedFromTheBegin) {
   P.row(kYawScale).setZero();
   P.col(kYawScale).setZero();
   ErrorVector x = ErrorVector::Zero();
-  UnexpectedSlip beside;
+  UnexpectedSlip beside(1.0);
   WholeFilter whole;
   whole.P.topLeftCorner<kErrorStates, kErrorStates>() = P;
   for (int k = 0; k < kTerms; ++k) {
@@ -117,7 +117,7 @@ TEST(UnexpectedSlip, IsAsIfItHadBeenEstimatedFromTheBegin) {
 TEST(UnexpectedSlip, OfWhatNobodyMeasuredIsNothing) {
   sim::RandomStream random(4, "unexpected slip");
   ErrorCovariance P = randomCovariance(random);
-  UnexpectedSlip slip;
+  UnexpectedSlip slip(1.0);
   slip.propagate(randomTransition(random), 2.0);
   Measurement m = randomMeasurement(random);
   m.residual.setConstant(5.0);
@@ -131,7 +131,7 @@ TEST(UnexpectedSlip, OfWhatNobodyMeasuredIsNothing) {
 TEST(UnexpectedSlip, HasDoneNothingToAStateThatIsForgotten) {
   sim::RandomStream random(6, "unexpected slip");
   ErrorCovariance P = randomCovariance(random);
-  UnexpectedSlip slip;
+  UnexpectedSlip slip(1.0);
   slip.propagate(randomTransition(random), 2.0);
   Measurement m = randomMeasurement(random);
   m.residual.setConstant(5.0);
@@ -147,7 +147,7 @@ TEST(UnexpectedSlip, HasDoneNothingToAStateThatIsForgotten) {
 TEST(UnexpectedSlip, NeedsAWay) {
   sim::RandomStream random(5, "unexpected slip");
   ErrorCovariance P = randomCovariance(random);
-  UnexpectedSlip slip;
+  UnexpectedSlip slip(1.0);
   const auto drive = [&](double way_m) {
     slip.propagate(randomTransition(random), way_m);
     Measurement m = randomMeasurement(random);
@@ -233,6 +233,7 @@ TEST(UnexpectedSlip, IsFoundWhileDriving) {
       positionDifference(Planet::byName(config.planet), moving->estimate.nav.position, drive.end.position);
   std::printf("%.2f m off, slip %.2f\n", off.head<2>().norm(), moving->estimate.vehicle.slow_slip);
   EXPECT_LT(off.head<2>().norm(), 0.06 * kDistance_m);
+  EXPECT_GT(moving->estimate.vehicle.slow_slip, 0.35) << "once found, it lasts";
 }
 
 /// Wheels half as large as configured; nothing slips like that.

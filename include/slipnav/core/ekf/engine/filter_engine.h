@@ -186,6 +186,7 @@ class FilterEngine {
   LastingSlip lasting_slip_;
   UnexpectedSlip unexpected_slip_;  ///< since the last standstill
   std::uint64_t unexpected_slips_ = 0;
+  bool slow_slip_lasts_ = false;    ///< it was unexpected, and still shows
   double slipping_way_m_ = 0.0;     ///< over which wheel speeds have contradicted
   double contradiction_mps_ = 0.0;  ///< innovation of the last wheel speed if it failed its gate, else 0
   double surface_speed_mps_ = 0.0;  ///< of the wheels, last sample

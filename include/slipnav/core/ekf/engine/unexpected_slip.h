@@ -26,11 +26,13 @@ class UnexpectedSlip {
 
   /// In the errors of the filter.
   struct Finding {
+    double slip = 0.0;  ///< at the end of the way, of the wheels beyond what the filter expected of the ground
     ErrorVector error = ErrorVector::Zero();      ///< estimate − truth
     ErrorCovariance P = ErrorCovariance::Zero();  ///< to be added: θ is not known exactly
   };
 
-  UnexpectedSlip() { begin(); }
+  /// @param shortest_way_m what happens within less is not said
+  explicit UnexpectedSlip(double shortest_way_m) : shortest_way_m_(shortest_way_m) { begin(); }
 
   /// The way begins here.
   void begin();
@@ -42,7 +44,7 @@ class UnexpectedSlip {
   void update(const Measurement& measurement, const UpdateGain& used, bool is_evidence);
 
   /// θᵀ (Λ + 1/prior) θ of the way so far: chi-square with kTerms degrees of freedom if there is no such slip; 0 before
-  /// the first meter. A priori each term is as much as wheels on ice: 1.
+  /// the shortest way. A priori each term is as much as wheels on ice: 1.
   double squared() const;
   /// Once that is more than 0.
   Finding finding() const;
@@ -62,6 +64,7 @@ class UnexpectedSlip {
   TermMatrix information_;                                 ///< Λ
   Terms weighted_;                                         ///< ξ
   double way_m_ = 0.0;
+  double shortest_way_m_;
 };
 
 }  // namespace slipnav
