@@ -101,6 +101,8 @@ TEST_F(ForecasterTest, BoundGrowsFromTheStopAndSaysWhenToStop) {
   params.threshold_m = 1.0;
   Forecaster forecaster = make(params);
   const ErrorOutlook error = drive(forecaster, 150, 0.02).value().error;
+  EXPECT_GT(error.stamp, kStart + 13 * kSecond);
+  EXPECT_LE(error.stamp, kStart + 15 * kSecond);
   ASSERT_EQ(error.times_s.size(), 120U);
   EXPECT_DOUBLE_EQ(error.times_s.back(), 60.0);
   for (std::size_t i = 1; i < error.times_s.size(); ++i) {

@@ -123,5 +123,13 @@ TEST(FilterEngine, LearnsNothingFromWheelsThatStand) {
   EXPECT_EQ(last.noise_factors.fast_slip, NoiseFactors{}.fast_slip);
 }
 
+TEST(FilterEngine, SaysWhatItHasLearned) {
+  const Config config = driveConfig(20.0);
+  const RecordedDrive drive = recordDrive(config);
+  const EstimateLog log = runNavigator(config, drive.initial, drive.samples);
+  EXPECT_NE(log.back().estimate.noise_factors.wheel, NoiseFactors{}.wheel);
+  EXPECT_NE(log.back().estimate.noise_factors.slow_slip, NoiseFactors{}.slow_slip);
+}
+
 }  // namespace
 }  // namespace slipnav::test
