@@ -189,6 +189,20 @@ CommandedStart initialiseUnder(const sim::Command& command) {
   return start;
 }
 
+TEST(Initializer, ConfiguredBiasesAreTaken) {
+  Config config = startConfig(5);
+  config.simulator.drive.initial_straight_m = 20.0;
+  config.initialization.source = "motion";
+  config.initialization.levelling_window_s = 5.0;
+  config.initialization.gyro_bias_deg_per_h = {36.0, -18.0, 9.0};
+  Interference late;
+  late.ignore_before_s = 15.0;
+  const Start start = initialize(config, late);
+  ASSERT_TRUE(start.initial);
+  const Vector3 expected = degToRad(1.0) / 3600.0 * Vector3(36.0, -18.0, 9.0);
+  EXPECT_LT((start.initial->nav.gyro_bias_b - expected).norm(), 1e-12);
+}
+
 /// The drive may as well go backwards: the heading is that of the rover, not of its course.
 TEST(Initializer, ABackwardDriveGivesTheSameHeading) {
   const CommandedStart start = initialiseUnder({-0.8, 0.0});
