@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "core/navigation/navigator.h"
 #include "random_states.h"
@@ -113,28 +114,37 @@ TEST(UnexpectedSlip, IsAsIfItHadBeenEstimatedFromTheBegin) {
   EXPECT_LT((P + found.P - P_expected).norm(), 1e-8 * P_expected.norm());
 }
 
+/// A way on which every measurement contradicts.
+class ContradictedWay {
+ public:
+  explicit ContradictedWay(std::uint64_t seed) : random_(seed, "unexpected slip"), P_(randomCovariance(random_)) {}
+
+  void drive(double way_m, bool is_evidence = true) {
+    slip.propagate(randomTransition(random_), way_m);
+    Measurement m = randomMeasurement(random_);
+    m.residual.setConstant(5.0);
+    slip.update(m, updateCovariance(m, P_).value(), is_evidence);
+  }
+
+  UnexpectedSlip slip{1.0};
+
+ private:
+  sim::RandomStream random_;
+  ErrorCovariance P_;
+};
+
 TEST(UnexpectedSlip, OfWhatNobodyMeasuredIsNothing) {
-  sim::RandomStream random(4, "unexpected slip");
-  ErrorCovariance P = randomCovariance(random);
-  UnexpectedSlip slip(1.0);
-  slip.propagate(randomTransition(random), 2.0);
-  Measurement m = randomMeasurement(random);
-  m.residual.setConstant(5.0);
-  slip.update(m, updateCovariance(m, P).value(), false);
-  EXPECT_EQ(slip.squared(), 0.0);
-  m.residual.setConstant(5.0);
-  slip.update(m, updateCovariance(m, P).value(), true);
-  EXPECT_GT(slip.squared(), 0.0);
+  ContradictedWay way(4);
+  way.drive(2.0, false);
+  EXPECT_EQ(way.slip.squared(), 0.0);
+  way.drive(0.1);
+  EXPECT_GT(way.slip.squared(), 0.0);
 }
 
 TEST(UnexpectedSlip, HasDoneNothingToAStateThatIsForgotten) {
-  sim::RandomStream random(6, "unexpected slip");
-  ErrorCovariance P = randomCovariance(random);
-  UnexpectedSlip slip(1.0);
-  slip.propagate(randomTransition(random), 2.0);
-  Measurement m = randomMeasurement(random);
-  m.residual.setConstant(5.0);
-  slip.update(m, updateCovariance(m, P).value(), true);
+  ContradictedWay way(6);
+  UnexpectedSlip& slip = way.slip;
+  way.drive(2.0);
   EXPECT_NE(slip.finding().error(kPosition), 0.0);
   slip.forget(kPosition);
   const UnexpectedSlip::Finding found = slip.finding();
@@ -144,21 +154,13 @@ TEST(UnexpectedSlip, HasDoneNothingToAStateThatIsForgotten) {
 }
 
 TEST(UnexpectedSlip, NeedsAWay) {
-  sim::RandomStream random(5, "unexpected slip");
-  ErrorCovariance P = randomCovariance(random);
-  UnexpectedSlip slip(1.0);
-  const auto drive = [&](double way_m) {
-    slip.propagate(randomTransition(random), way_m);
-    Measurement m = randomMeasurement(random);
-    m.residual.setConstant(5.0);
-    slip.update(m, updateCovariance(m, P).value(), true);
-  };
-  drive(0.9);
-  EXPECT_EQ(slip.squared(), 0.0);
-  drive(0.2);
-  EXPECT_GT(slip.squared(), 0.0);
-  slip.begin();
-  EXPECT_EQ(slip.squared(), 0.0);
+  ContradictedWay way(5);
+  way.drive(0.9);
+  EXPECT_EQ(way.slip.squared(), 0.0);
+  way.drive(0.2);
+  EXPECT_GT(way.slip.squared(), 0.0);
+  way.slip.begin();
+  EXPECT_EQ(way.slip.squared(), 0.0);
 }
 
 constexpr const char* kAlarm = "slip unnoticed for meters: velocity and position corrected";
