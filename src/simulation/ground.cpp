@@ -20,7 +20,7 @@ GroundParams paved() {
   g.slip.side_slip_per_slope = 0.02;
   g.slip.sway_m = 0.0001;
   g.slip.heave_m = 0.0002;
-  g.slip.turn_centre_m = 0.005;
+  g.slip.turning_point_std_m = 0.005;
   g.slip.track_factor = 1.5;
   g.slip.track_factor_spread = 0.02;
   g.vibration_mps2 = 0.15;
@@ -46,7 +46,7 @@ GroundParams unpaved() {
   g.slip.side_slip_per_slope = 0.05;
   g.slip.sway_m = 0.0005;
   g.slip.heave_m = 0.0008;
-  g.slip.turn_centre_m = 0.01;
+  g.slip.turning_point_std_m = 0.01;
   g.slip.track_factor = 1.45;
   g.slip.track_factor_spread = 0.04;
   g.vibration_mps2 = 0.3;
@@ -72,7 +72,7 @@ GroundParams gravel() {
   g.slip.side_slip_per_slope = 0.08;
   g.slip.sway_m = 0.0008;
   g.slip.heave_m = 0.001;
-  g.slip.turn_centre_m = 0.02;
+  g.slip.turning_point_std_m = 0.02;
   g.slip.track_factor = 1.4;
   g.slip.track_factor_spread = 0.06;
   g.vibration_mps2 = 0.35;
@@ -98,7 +98,7 @@ GroundParams rough() {
   g.slip.side_slip_per_slope = 0.2;
   g.slip.sway_m = 0.0015;
   g.slip.heave_m = 0.002;
-  g.slip.turn_centre_m = 0.03;
+  g.slip.turning_point_std_m = 0.03;
   g.slip.track_factor = 1.35;
   g.slip.track_factor_spread = 0.08;
   g.vibration_mps2 = 0.4;
@@ -144,6 +144,10 @@ GroundParams changed(GroundParams ground, const GroundChangeParams& change) {
   slip.patch_spacing_m = change.patch_spacing_m;
   if (change.track_factor > 0.0) {
     slip.track_factor = change.track_factor;
+  }
+  slip.turning_point_m = change.turning_point_m;
+  if (change.turning_point_std_m > 0.0) {
+    slip.turning_point_std_m = change.turning_point_std_m;
   }
   ground.relief.tilt_deg = change.tilt_deg;
   return ground;

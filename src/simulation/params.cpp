@@ -37,6 +37,10 @@ void GroundChangeParams::visit(ParameterVisitor& v) {
   v.number("patch_length_m", patch_length_m, {0.5, 1000.0}, "mean length of a soft patch");
   v.number("patch_spacing_m", patch_spacing_m, {0.5, 1000.0}, "mean length of the ground between two patches");
   v.number("track_factor", track_factor, {0.0, 3.0}, "scrub: effective over geometric track; 0: the terrain's own");
+  v.number("turning_point_m", turning_point_m, {-2.0, 2.0},
+           "mean of the point ahead of base_link that does not move sideways in a turn");
+  v.number("turning_point_std_m", turning_point_std_m, {0.0, 2.0},
+           "1 sigma of it along the path; 0: the terrain's own");
 }
 
 void BodyParams::visit(ParameterVisitor& v) {

@@ -32,8 +32,10 @@ struct GroundChangeParams {
   double tilt_deg = 0.0;        ///< slope of the whole plane, the start included, uphill in the direction of the start
   double patch_slip = 0.0;      ///< additional slip in soft patches
   double patch_length_m = 3.0;  ///< mean length of a patch
-  double patch_spacing_m = 10.0;  ///< mean length of the firm ground between two
-  double track_factor = 0.0;      ///< scrub; 0: the terrain's own
+  double patch_spacing_m = 10.0;     ///< mean length of the firm ground between two
+  double track_factor = 0.0;         ///< scrub; 0: the terrain's own
+  double turning_point_m = 0.0;      ///< mean of the point ahead of base_link that does not move sideways in a turn
+  double turning_point_std_m = 0.0;  ///< 1σ along the path; 0: the terrain's own
 
   void visit(ParameterVisitor& v);
 };

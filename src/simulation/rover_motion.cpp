@@ -125,7 +125,8 @@ void RoverMotion::moveBody(const SurfacePoint& surface, const Slippage& slippage
   const double right_mps = held * radius_right * (forward_.speed() - difference_.speed()) * (1.0 - slippage.right);
   const double forward_mps = 0.5 * (left_mps + right_mps);
   const double yaw_rate_radps = (left_mps - right_mps) / (slippage.track_factor * vehicle_.track_m);
-  state_.v_eb_b << forward_mps, std::abs(forward_mps) * slippage.lateral - slippage.turn_centre_m * yaw_rate_radps, 0.0;
+  state_.v_eb_b << forward_mps, std::abs(forward_mps) * slippage.lateral - slippage.turning_point_m * yaw_rate_radps,
+      0.0;
   state_.v_eb_enu = state_.C_b_to_enu * state_.v_eb_b;
 
   // the axes rotate with the surface normal along the path; see doc/simulator.md

@@ -53,7 +53,7 @@ SlipModel::SlipModel(const SlipParams& params, std::uint64_t seed)
       track_(seed, "track factor", kTrackCorrelation_m),
       sway_(seed, "sway", kStoneCorrelation_m),
       heave_(seed, "heave", kStoneCorrelation_m),
-      turn_centre_(seed, "turn centre", kTrackCorrelation_m),
+      turning_point_(seed, "turn centre", kTrackCorrelation_m),
       wheel_(wheelProcesses(seed)),
       patches_(params.patch_length_m, params.patch_spacing_m, seed),
       impulse_stream_(seed, "slip impulses"),
@@ -113,7 +113,8 @@ Slippage SlipModel::at(const Footing& footing) {
   slippage.lateral = footing.looseness * std::tan(degToRad(params_.side_slip_deg) * lateral_.at(travel_m) +
                                                   params_.side_slip_per_slope * footing.sin_cross) +
                      footing.looseness * params_.sway_m * sway_.slopeAt(travel_m);
-  slippage.turn_centre_m = footing.looseness * params_.turn_centre_m * turn_centre_.at(travel_m);
+  slippage.turning_point_m =
+      params_.turning_point_m + footing.looseness * params_.turning_point_std_m * turning_point_.at(travel_m);
   slippage.heave_m = params_.heave_m * heave_.at(travel_m);
   slippage.heave_slope = params_.heave_m * heave_.slopeAt(travel_m);
   slippage.track_factor = params_.track_factor + params_.track_factor_spread * track_.at(travel_m);

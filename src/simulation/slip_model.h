@@ -26,7 +26,8 @@ struct SlipParams {
   double side_slip_per_slope = 0.0;  ///< slip angle [rad] per sine of the cross slope
   double sway_m = 0.0;               ///< 1σ of the sideways offset while wheels climb over and between stones
   double heave_m = 0.0;              ///< 1σ of the body's height over the smooth relief, likewise
-  double turn_centre_m = 0.0;        ///< 1σ along the vehicle of the point that does not move sideways in a turn
+  double turning_point_m = 0.0;      ///< ahead of base_link: the point that does not move sideways in a turn; mean
+  double turning_point_std_m = 0.0;  ///< 1σ along the path
   double track_factor = 1.0;         ///< effective over geometric track when the rover turns (scrub)
   double track_factor_spread = 0.0;  ///< 1σ along the path
   double offset = 0.0;               ///< additional persistent part, the same in every drive
@@ -47,10 +48,10 @@ struct Footing {
 struct Slippage {
   double left = 0.0;  ///< fraction of the left wheels' surface speed by which that side falls behind
   double right = 0.0;
-  double lateral = 0.0;        ///< sideways over forward speed, positive to the right
-  double turn_centre_m = 0.0;  ///< ahead of base_link: the point that does not move sideways in a turn
-  double heave_m = 0.0;        ///< of the body over the smooth relief
-  double heave_slope = 0.0;    ///< its derivative with respect to the travel
+  double lateral = 0.0;          ///< sideways over forward speed, positive to the right
+  double turning_point_m = 0.0;  ///< ahead of base_link: the point that does not move sideways in a turn
+  double heave_m = 0.0;          ///< of the body over the smooth relief
+  double heave_slope = 0.0;      ///< its derivative with respect to the travel
   double track_factor = 1.0;
   PerWheel spin_up = {};  ///< excess of each wheel's speed over its command, relative
 };
@@ -78,7 +79,7 @@ class SlipModel {
 
   SlipParams params_;
   double mean_;
-  CorrelatedProcess fast_left_, fast_right_, fast_both_, slow_both_, lateral_, track_, sway_, heave_, turn_centre_;
+  CorrelatedProcess fast_left_, fast_right_, fast_both_, slow_both_, lateral_, track_, sway_, heave_, turning_point_;
   std::vector<CorrelatedProcess> wheel_;
   SoftPatches patches_;
   RandomStream impulse_stream_;

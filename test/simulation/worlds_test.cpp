@@ -143,6 +143,22 @@ TEST(SimGround, SlipIsHigherBySoMuchInSoftPatches) {
   EXPECT_NEAR(edges / kPoints, 0.6 / 13.3, 0.02);
 }
 
+TEST(SimGround, APointAheadDoesNotMoveSidewaysInATurn) {
+  constexpr double kAhead_m = 0.3;
+  GroundChangeParams change;
+  change.turning_point_m = kAhead_m;
+  GroundParams ground = changed(groundByName("rocking"), change);
+  RoverMotion motion({}, ground, 0.0, 1.0, 7);
+  double largest_rate_radps = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    motion.advance(0.5, 0.4 * std::sin(1e-3 * i), 1e-3);
+    const Kinematics& state = motion.state();
+    EXPECT_NEAR(state.v_eb_b.y() + kAhead_m * state.omega_eb_b.z(), 0.0, 1e-9) << i;
+    largest_rate_radps = std::max(largest_rate_radps, state.omega_eb_b.z());
+  }
+  EXPECT_GT(largest_rate_radps, 0.2);
+}
+
 TEST(SimGround, ATiltedPlaneRisesInTheDirectionOfTheStart) {
   GroundChangeParams change;
   change.tilt_deg = 15.0;

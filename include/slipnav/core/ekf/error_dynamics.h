@@ -35,7 +35,7 @@ struct VehicleModelParams {
   double side_slip_length_m = 8.0;
   double mount_pitch_std_deg = 0.3;
   double mount_yaw_std_deg = 0.5;
-  double mount_position_std_m = 0.1;
+  double mount_position_std_m = 0.2;
   void visit(ParameterVisitor& v);
 };
 

@@ -19,7 +19,8 @@ void NonholonomicParams::visit(ParameterVisitor& v) {
   v.number("lateral_slope_std", lateral_slope_std, {0.0, 1.0},
            "1σ of the mean lateral speed as a ratio of the forward speed: sway; larger values are learned");
   v.number("lateral_turn_std_m", lateral_turn_std_m, {0.0, 10.0},
-           "1σ of the lateral speed per heading rate: how far the center of turn wanders along the vehicle [m]");
+           "1σ of the lateral speed per heading rate, for a turning point that wanders along the vehicle more than the "
+           "sway that is learned [m]");
   v.number("vertical_std_mps", vertical_std_mps, {1e-6, 10.0},
            "1σ of the mean vertical speed, at any forward speed; larger values are learned [m/s]");
   v.number("vertical_slope_std", vertical_slope_std, {0.0, 1.0},

@@ -38,6 +38,18 @@ TEST(ImuOffset, IsFoundInTurns) {
   EXPECT_EQ(found_b.z(), 0.0);
 }
 
+/// For IMU and wheels, an IMU behind the point about which the vehicle turns.
+TEST(ImuOffset, IsThatOfATurningPointAhead) {
+  Config config = turningDrive();
+  config.simulator.terrain = "paved";
+  config.simulator.ground.turning_point_m = kAhead_m;
+  config.simulator.ground.turning_point_std_m = 0.05;
+  const LoggedEstimate last = atTheEnd(config);
+  const double std_m = std::sqrt(last.P(kImuOffset, kImuOffset));
+  EXPECT_LT(std_m, 0.07);
+  EXPECT_NEAR(last.estimate.nav.imu_offset_b.x(), -kAhead_m, 3.0 * std_m);
+}
+
 /// An exact mounting stays one.
 TEST(ImuOffset, OfAnExactMountingIsNone) {
   const LoggedEstimate last = atTheEnd(turningDrive());

@@ -12,7 +12,7 @@ namespace slipnav {
 struct NonholonomicParams {
   double lateral_std_mps = 0.003;
   double lateral_slope_std = 0.015;
-  double lateral_turn_std_m = 0.1;
+  double lateral_turn_std_m = 0.0;  ///< a constant turning point is a state; its wander counts as sway
   double vertical_std_mps = 0.003;
   double vertical_slope_std = 0.015;
   double vertical_turn_std_m = 0.03;
