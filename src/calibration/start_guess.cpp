@@ -24,7 +24,7 @@ double speedAt(const CalibrationDrive& drive, Nanoseconds stamp) {
 
 /// Roll and pitch at a stamp, over the window that follows it.
 Vector2 level(const Config& config, const CalibrationDrive& drive, Nanoseconds stamp) {
-  const Nanoseconds end = stamp + fromSeconds(config.initialization.levelling_window_s);
+  const Nanoseconds end = stamp + fromSeconds(config.initialization.leveling_window_s);
   std::vector<ImuSample> window;
   for (const ImuSample& sample : drive.imu) {
     if (sample.stamp >= stamp && sample.stamp <= end) {

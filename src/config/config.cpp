@@ -1,8 +1,11 @@
 #include "config/config.h"
 
+#include <iostream>
 #include <stdexcept>
+#include <utility>
 
 #include "config/legacy_start.h"
+#include "config/renamed_keys.h"
 #include "config/yaml_document.h"
 #include "config/yaml_reader.h"
 
@@ -10,7 +13,11 @@ namespace slipnav {
 namespace {
 
 /// Merges a document into what has been read so far. It is first read separately, so that errors name its location.
-void mergeChecked(const YAML::Node& document, const std::string& source, YAML::Node& merged) {
+void mergeChecked(YAML::Node document, const std::string& source, YAML::Node& merged,
+                  std::vector<std::string>& warnings) {
+  for (std::string& warning : renameFormerKeys(document, source)) {
+    warnings.push_back(std::move(warning));
+  }
   Config scratch;
   readParameters(document, scratch, source);
   merged.reset(mergeYaml(merged, document));
@@ -35,9 +42,9 @@ void requireOneMethod(const ForecastParams& forecast, const StopParams& stop) {
 }
 
 /// An override has a name, but no lines that an error could refer to.
-void mergeOverride(const Override& item, YAML::Node& merged) {
+void mergeOverride(const Override& item, YAML::Node& merged, std::vector<std::string>& warnings) {
   try {
-    mergeChecked(toYamlNode(item), "", merged);
+    mergeChecked(toYamlNode(item), "", merged, warnings);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(item.source + ": " + error.what());
   }
@@ -97,9 +104,9 @@ NavigationSetup Config::navigation() const {
 }
 
 void Config::requireConsistent() const {
-  if (zero_motion.least_velocity_std_mps > zero_motion.largest_velocity_std_mps) {
+  if (zero_motion.min_velocity_std_mps > zero_motion.max_velocity_std_mps) {
     throw std::invalid_argument(
-        "'zero_motion.least_velocity_std_mps' must not be above 'zero_motion.largest_velocity_std_mps'");
+        "'zero_motion.min_velocity_std_mps' must not be above 'zero_motion.max_velocity_std_mps'");
   }
   if (gnss.always() && topics.gps_fix == topics.truth_fix) {
     throw std::invalid_argument("'topics.gps/fix' and 'topics.truth/fix' must differ with 'gnss.use: always'");
@@ -111,14 +118,14 @@ void Config::requireConsistent() const {
 }
 
 Config Config::load(const std::vector<std::string>& yaml_files, const std::vector<Override>& overrides) {
+  Config config;
   YAML::Node merged(YAML::NodeType::Map);
   for (const std::string& file : yaml_files) {
-    mergeChecked(loadYamlFile(file), file, merged);
+    mergeChecked(loadYamlFile(file), file, merged, config.warnings);
   }
   for (const Override& item : overrides) {
-    mergeOverride(item, merged);
+    mergeOverride(item, merged, config.warnings);
   }
-  Config config;
   readParameters(merged, config);
   config.requireConsistent();
   return config;
@@ -145,7 +152,11 @@ Config configFromOptions(const Arguments& arguments, std::vector<std::string> fi
   }
   const std::vector<std::string>& given = arguments.all("config");
   first.insert(first.end(), given.begin(), given.end());
-  return Config::load(first, overrides);
+  Config config = Config::load(first, overrides);
+  for (const std::string& warning : config.warnings) {
+    std::cerr << warning << '\n';
+  }
+  return config;
 }
 
 }  // namespace slipnav

@@ -57,6 +57,8 @@ struct Config {
   CalibrationParams calibration;
   sim::SimulatorParams simulator;
 
+  std::vector<std::string> warnings;  ///< lines for the user: keys that have been renamed
+
   void visit(ParameterVisitor& v);
 
   /// The parameters of mechanization, filter and initialization.

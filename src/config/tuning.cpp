@@ -17,7 +17,7 @@ const std::map<std::string, std::vector<std::string>>& offers() {
       {"Filter",
        {"filter.gate_alpha", "filter.zero_velocity_gate_alpha", "filter.max_rejection_s", "wheel.speed_std_mps",
         "wheel.slip_noise_std", "wheel.yaw_rate_std_deg_per_s", "wheel.yaw_rate_scale_std", "nonholonomic",
-        "zero_motion.least_velocity_std_mps", "zero_motion.largest_velocity_std_mps", "zero_motion.adaptation_samples",
+        "zero_motion.min_velocity_std_mps", "zero_motion.max_velocity_std_mps", "zero_motion.adaptation_samples",
         "zero_motion.rate_std_deg_per_h", "stationary"}},
       {"Forecast",
        {"forecast.threshold_m", "forecast.sigmas", "forecast.window_s", "forecast.interval_s", "forecast.horizon_s",

@@ -2,7 +2,7 @@
 ///
 /// In: imu/data, joint_states or wheel_odometry, gps/fix, gps/velocity; hand_over, start_request. Out, latched:
 /// initial_state, initialization, TF map → odom.
-/// Services: `initialise`, reset.
+/// Services: initialize, reset.
 
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <sensor_msgs/Imu.h>
@@ -67,7 +67,8 @@ class InitializerNodelet : public NodeletBase {
     listen<nav_msgs::Odometry>(config.topics.wheel_odometry, &InitializerNodelet::onWheels<nav_msgs::Odometry>);
     listen<sensor_msgs::NavSatFix>(config.topics.gps_fix, &InitializerNodelet::onFix);
     listen<geometry_msgs::TwistWithCovarianceStamped>(config.topics.gps_velocity, &InitializerNodelet::onVelocity);
-    serve("initialise", &InitializerNodelet::initialize);
+    serve("initialize", &InitializerNodelet::initialize);
+    serve("initialise", &InitializerNodelet::initializeByFormerName);
     serve("reset", &InitializerNodelet::reset);
   }
 
@@ -179,6 +180,11 @@ class InitializerNodelet : public NodeletBase {
   }
 
   void initialize(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    searchAgain(false, response);
+  }
+
+  void initializeByFormerName(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    NODELET_WARN_ONCE("the service 'initialise' is now 'initialize'; the former name works in this release only");
     searchAgain(false, response);
   }
 

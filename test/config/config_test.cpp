@@ -52,6 +52,31 @@ TEST(Config, EveryTopicIsCalledByItsBoundaryName) {
   }
 }
 
+/// A configuration of an earlier release is read, and says what to write from now on.
+TEST(Config, FormerNamesWorkAndAreNamed) {
+  const TemporaryFile file("former.yaml", "planet: mars\ninitialization:\n  levelling_window_s: 7\n");
+  const Config config = Config::load({file.path()}, {keyOverride("zero_motion.largest_velocity_std_mps=0.5")});
+  EXPECT_EQ(config.initialization.leveling_window_s, 7.0);
+  EXPECT_EQ(config.zero_motion.max_velocity_std_mps, 0.5);
+  ASSERT_EQ(config.warnings.size(), 2U);
+  EXPECT_EQ(config.warnings[0], file.path() + ":3: 'initialization.levelling_window_s' is now "
+                                              "'initialization.leveling_window_s'; the former name works in this release only");
+  EXPECT_NE(config.warnings[1].find("'zero_motion.max_velocity_std_mps'"), std::string::npos);
+  EXPECT_TRUE(Config::load({}).warnings.empty());
+}
+
+TEST(Config, TheLaterOfAFormerAndAPresentNameWins) {
+  const TemporaryFile former("former.yaml", "initialization: {levelling_window_s: 7}\n");
+  const TemporaryFile present("present.yaml", "initialization: {leveling_window_s: 8}\n");
+  EXPECT_EQ(Config::load({present.path(), former.path()}).initialization.leveling_window_s, 7.0);
+  EXPECT_EQ(Config::load({former.path(), present.path()}).initialization.leveling_window_s, 8.0);
+}
+
+TEST(Config, AKeyByBothItsNamesIsRefused) {
+  const TemporaryFile file("both.yaml", "initialization: {levelling_window_s: 7, leveling_window_s: 8}\n");
+  EXPECT_NE(complaint({file.path()}).find("is the former name of 'initialization.leveling_window_s'"), std::string::npos);
+}
+
 TEST(Config, LaterFilesWin) {
   const TemporaryFile first("first.yaml", "planet: mars\ntopics: {imu/data: a, cmd_vel: b}\n");
   const TemporaryFile second("second.yaml", "topics:\n  imu/data: c\n");

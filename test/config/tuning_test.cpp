@@ -60,9 +60,9 @@ TEST(Tuning, RefusesWhatAFileCouldNotSayEither) {
 }
 
 TEST(Tuning, RefusesWhatContradictsAnotherValue) {
-  EXPECT_EQ(complaint({{"zero_motion.least_velocity_std_mps", 0.5}}),
-            "'zero_motion.least_velocity_std_mps' must not be above 'zero_motion.largest_velocity_std_mps'");
-  EXPECT_EQ(complaint({{"zero_motion.least_velocity_std_mps", 0.5}, {"zero_motion.largest_velocity_std_mps", 0.6}}),
+  EXPECT_EQ(complaint({{"zero_motion.min_velocity_std_mps", 0.5}}),
+            "'zero_motion.min_velocity_std_mps' must not be above 'zero_motion.max_velocity_std_mps'");
+  EXPECT_EQ(complaint({{"zero_motion.min_velocity_std_mps", 0.5}, {"zero_motion.max_velocity_std_mps", 0.6}}),
             "nothing was thrown");
 }
 

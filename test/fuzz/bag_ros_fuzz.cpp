@@ -13,7 +13,7 @@ namespace {
 slipnav::Config makeConfig(const std::string& extrinsics) {
   slipnav::Config config;
   config.initialization.source = "given";
-  config.initialization.levelling_window_s = 0.5;
+  config.initialization.leveling_window_s = 0.5;
   config.frames.extrinsics = extrinsics;
   return config;
 }

@@ -22,7 +22,7 @@ using namespace slipnav;
 Config makeConfig() {
   Config config;
   config.initialization.source = "given";
-  config.initialization.levelling_window_s = 0.5;
+  config.initialization.leveling_window_s = 0.5;
   return config;
 }
 

@@ -123,8 +123,8 @@ TEST_F(TuningTest, WhatCannotBeIsRefusedAndTheAnswerHoldsTheOldValues) {
   EXPECT_EQ(valueOf<double>(kThreshold, tune("/forecast", "forecast.step_s", 0.2)), threshold_m) << "not offered";
   EXPECT_EQ(valueOf<double>(kGate, tune("/filter", kThreshold, 1.0)), config_->filter.gate_alpha) << "not its own";
   EXPECT_EQ(ros::NodeHandle().param("/slipnav/forecast/threshold_m", 0.0), threshold_m);
-  const char* const least = "zero_motion.least_velocity_std_mps";
-  EXPECT_EQ(valueOf<double>(least, tune("/filter", least, 0.5)), config_->zero_motion.least_velocity_std_mps)
+  const char* const least = "zero_motion.min_velocity_std_mps";
+  EXPECT_EQ(valueOf<double>(least, tune("/filter", least, 0.5)), config_->zero_motion.min_velocity_std_mps)
       << "above the largest";
   EXPECT_EQ(valueOf<std::string>("stop.mode", tune("/stop_supervisor", "stop.mode", std::string("go"))), "advise");
 }

@@ -11,7 +11,7 @@ Config tuningConfig(int seed, double distance_m) {
   config.simulator.seed = seed;
   config.simulator.terrain = "paved";
   config.initialization.source = "given";
-  config.initialization.levelling_window_s = 3.0;
+  config.initialization.leveling_window_s = 3.0;
   config.vehicle.fast_slip_std = 0.002;
   config.wheel.slip_noise_std = 0.0005;
   config.filter.adaptation.factor_std = 1.0;  // what is learned while driving need not be configured

@@ -58,7 +58,7 @@ void InitializationParams::visit(ParameterVisitor& v) {
   v.number("drive_heading_std_deg", drive_heading_std_deg, {1e-3, 45.0},
            "least 1σ of that heading: it is the course of the drive except for side slip and mounting, however good "
            "the fixes are [°]");
-  v.number("levelling_window_s", levelling_window_s, {0.5, 600.0},
+  v.number("leveling_window_s", leveling_window_s, {0.5, 600.0},
            "length of the window for leveling without a standstill [s]");
   v.number("moving_level_std_deg", moving_level_std_deg, {1e-3, 45.0},
            "1σ of roll and pitch after leveling on the move [°]");
@@ -177,11 +177,11 @@ std::optional<InitialState> Initializer::fromWindow() const {
       recording_.windowBeginFrom(from_truth                    ? truth_->stamp
                                  : recording_.wheels().empty() ? recording_.imu().front().stamp
                                                                : recording_.wheels().front().stamp,
-                                 params_.levelling_window_s);
-  if (!begin || toSeconds(recording_.imu().back().stamp - *begin) < params_.levelling_window_s) {
+                                 params_.leveling_window_s);
+  if (!begin || toSeconds(recording_.imu().back().stamp - *begin) < params_.leveling_window_s) {
     return std::nullopt;
   }
-  const Nanoseconds end = *begin + fromSeconds(params_.levelling_window_s);
+  const Nanoseconds end = *begin + fromSeconds(params_.leveling_window_s);
   const Nanoseconds slack = fromSeconds(setup_.stationary.hold_off_s + setup_.stationary.window_s + 0.5);
   const bool at_rest =
       recording_.rest().begin != 0 && recording_.rest().begin <= *begin + slack && recording_.rest().end + slack >= end;
@@ -219,10 +219,10 @@ std::optional<InitialState> Initializer::fromDrive() const {
     return std::nullopt;  // on a straight line the lag would soon be absorbed by the start position
   }
   const std::optional<Nanoseconds> begin = recording_.windowBeginFrom(
-      rested ? recording_.rest().begin : recording_.fixes().front().stamp, params_.levelling_window_s);
+      rested ? recording_.rest().begin : recording_.fixes().front().stamp, params_.leveling_window_s);
   const std::optional<DriveEnd> end = newestKnownFix();
   const bool levels =
-      begin && (rested || toSeconds(recording_.imu().back().stamp - *begin) >= params_.levelling_window_s);
+      begin && (rested || toSeconds(recording_.imu().back().stamp - *begin) >= params_.leveling_window_s);
   if (!levels || !end) {
     return std::nullopt;
   }
@@ -241,7 +241,7 @@ std::optional<InitialState> Initializer::fromDrive() const {
 std::optional<DriveFit> Initializer::fitOfDrive(Nanoseconds begin, Nanoseconds end, bool at_rest) const {
   const double bias_z = at_rest ? recording_.mean(recording_.rest().begin, recording_.rest().end).omega_ib_b.z()
                                 : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
-  const Nanoseconds level_end = at_rest ? recording_.rest().end : begin + fromSeconds(params_.levelling_window_s);
+  const Nanoseconds level_end = at_rest ? recording_.rest().end : begin + fromSeconds(params_.leveling_window_s);
   const Quaternion q_b_to_level = levelled(begin, level_end, at_rest, 0.0).nav.q_b_to_n;
   const DriveTrack track(recording_, begin, bias_z, q_b_to_level * setup_.lever_imu_to_antenna_b);
   if (track.reach() < params_.drive_distance_m) {
@@ -262,7 +262,7 @@ std::optional<DriveFit> Initializer::fitOfDrive(Nanoseconds begin, Nanoseconds e
 }
 
 InitialState Initializer::beginOfDrive(Nanoseconds begin, const DriveFit& fit, bool at_rest) const {
-  const Nanoseconds level_end = at_rest ? recording_.rest().end : begin + fromSeconds(params_.levelling_window_s);
+  const Nanoseconds level_end = at_rest ? recording_.rest().end : begin + fromSeconds(params_.leveling_window_s);
   InitialState initial = levelled(begin, level_end, at_rest, fit.heading_rad);
   const std::vector<PositionFix>& fixes = recording_.fixes();
   initial.nav.position = fixes.front().position;

@@ -1,7 +1,11 @@
 #include "ros/runtime/parameters.h"
 
-#include <stdexcept>
+#include <ros/console.h>
 
+#include <stdexcept>
+#include <string>
+
+#include "config/renamed_keys.h"
 #include "config/yaml_reader.h"
 #include "core/base/text.h"
 
@@ -67,7 +71,12 @@ Config configFromParameters(const ros::NodeHandle& node, const std::string& name
   Config config;
   XmlRpc::XmlRpcValue tree;
   if (node.getParam(name, tree)) {
-    readParameters(toYamlNode(tree), config, "parameters " + node.resolveName(name));
+    YAML::Node document = toYamlNode(tree);
+    const std::string source = "parameters " + node.resolveName(name);
+    for (const std::string& warning : renameFormerKeys(document, source)) {
+      ROS_WARN_STREAM(warning);
+    }
+    readParameters(document, config, source);
     config.requireConsistent();
   }
   return config;

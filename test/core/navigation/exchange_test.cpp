@@ -258,7 +258,7 @@ class StarterTest : public ::testing::Test {
   static NavigationSetup setup() {
     NavigationSetup setup = config().navigation();
     setup.initialization.source = "given";
-    setup.initialization.levelling_window_s = 1.0;
+    setup.initialization.leveling_window_s = 1.0;
     return setup;
   }
 

@@ -119,7 +119,7 @@ TEST(Initializer, GivenPoseIsTakenAndLevelled) {
   config.initialization.longitude_deg = -80.0;
   config.initialization.height_m = 222.0;
   config.initialization.position_std_m = 0.5;
-  config.initialization.levelling_window_s = 5.0;
+  config.initialization.leveling_window_s = 5.0;
   const Start start = initialize(config);
   ASSERT_TRUE(start.initial);
   const InitialState& initial = *start.initial;
@@ -139,7 +139,7 @@ TEST(Initializer, MotionStartsWhileDriving) {
   Config config = startConfig(5);
   config.simulator.drive.initial_straight_m = 20.0;
   config.initialization.source = "motion";
-  config.initialization.levelling_window_s = 5.0;
+  config.initialization.leveling_window_s = 5.0;
   Interference late;
   late.ignore_before_s = 15.0;
   const Start start = initialize(config, late);
@@ -193,7 +193,7 @@ TEST(Initializer, ConfiguredBiasesAreTaken) {
   Config config = startConfig(5);
   config.simulator.drive.initial_straight_m = 20.0;
   config.initialization.source = "motion";
-  config.initialization.levelling_window_s = 5.0;
+  config.initialization.leveling_window_s = 5.0;
   config.initialization.gyro_bias_deg_per_h = {36.0, -18.0, 9.0};
   Interference late;
   late.ignore_before_s = 15.0;
@@ -299,7 +299,7 @@ TEST(Initializer, LevelsAfterAGapOfTheImu) {
   for (const std::string source : {"given", "gnss"}) {
     Config config;
     config.initialization.source = source;
-    config.initialization.levelling_window_s = 2.0;
+    config.initialization.leveling_window_s = 2.0;
     const NavigationSetup setup = config.navigation();
     Initializer initializer(Planet::byName("earth"), setup.initialization, setup.imu_input, setup.filter);
     const Nanoseconds after_gap = fromSeconds(20.0);

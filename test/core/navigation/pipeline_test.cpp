@@ -16,7 +16,7 @@ class PipelineTest : public ::testing::Test {
   static Config config() {
     Config config = driveConfig(6.0);
     config.initialization.source = "given";
-    config.initialization.levelling_window_s = 3.0;
+    config.initialization.leveling_window_s = 3.0;
     return config;
   }
 

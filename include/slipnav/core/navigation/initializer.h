@@ -35,7 +35,7 @@ struct InitializationParams {
   double max_rest_s = 60.0;
   double drive_distance_m = 10.0;
   double drive_heading_std_deg = 1.0;
-  double levelling_window_s = 10.0;
+  double leveling_window_s = 10.0;
   double moving_level_std_deg = 1.0;
   double moving_speed_std_mps = 0.1;
   double fix_stamp_offset_s = 0.0;

@@ -9,22 +9,22 @@ namespace slipnav {
 void ZeroMotionParams::visit(ParameterVisitor& v) {
   v.number("velocity_std_mps", velocity_std_mps, {1e-7, 1.0},
            "1σ of the velocity at standstill before anything is learned [m/s]");
-  v.number("least_velocity_std_mps", least_velocity_std_mps, {1e-7, 1.0}, "smallest 1σ that can be learned [m/s]");
-  v.number("largest_velocity_std_mps", largest_velocity_std_mps, {1e-7, 1.0}, "largest 1σ that can be learned [m/s]");
+  v.number("min_velocity_std_mps", min_velocity_std_mps, {1e-7, 1.0}, "smallest 1σ that can be learned [m/s]");
+  v.number("max_velocity_std_mps", max_velocity_std_mps, {1e-7, 1.0}, "largest 1σ that can be learned [m/s]");
   v.number("adaptation_samples", adaptation_samples, {1.0, 1e6}, "memory of the learning, in updates");
   v.number("rate_std_deg_per_h", rate_std_deg_per_h, {0.0, 1e6},
            "1σ of the rate at standstill in addition to the gyro noise [°/h]");
 }
 
 StandstillNoise::StandstillNoise(const ZeroMotionParams& params)
-    : least_variance_(square(params.least_velocity_std_mps)),
-      largest_variance_(square(params.largest_velocity_std_mps)),
+    : least_variance_(square(params.min_velocity_std_mps)),
+      largest_variance_(square(params.max_velocity_std_mps)),
       gain_(1.0 / params.adaptation_samples),
       variance_(square(params.velocity_std_mps)) {}
 
 void StandstillNoise::retune(const ZeroMotionParams& params) {
-  least_variance_ = square(params.least_velocity_std_mps);
-  largest_variance_ = square(params.largest_velocity_std_mps);
+  least_variance_ = square(params.min_velocity_std_mps);
+  largest_variance_ = square(params.max_velocity_std_mps);
   gain_ = 1.0 / params.adaptation_samples;
   variance_ = std::clamp(variance_, least_variance_, largest_variance_);
 }

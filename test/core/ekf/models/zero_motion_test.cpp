@@ -13,8 +13,8 @@ namespace {
 ZeroMotionParams params() {
   ZeroMotionParams params;
   params.velocity_std_mps = 0.005;
-  params.least_velocity_std_mps = 1e-4;
-  params.largest_velocity_std_mps = 0.02;
+  params.min_velocity_std_mps = 1e-4;
+  params.max_velocity_std_mps = 0.02;
   params.adaptation_samples = 50.0;
   params.rate_std_deg_per_h = 0.0;
   return params;
@@ -125,7 +125,7 @@ TEST(StandstillNoise, KeepsWhatItHasLearnedWithinOtherLimits) {
   tremor.retune(params());
   EXPECT_DOUBLE_EQ(tremor.variance(), 1e-6);
   ZeroMotionParams higher = params();
-  higher.least_velocity_std_mps = 0.01;
+  higher.min_velocity_std_mps = 0.01;
   tremor.retune(higher);
   EXPECT_DOUBLE_EQ(tremor.variance(), 1e-4);
 }

@@ -10,8 +10,8 @@ namespace slipnav {
 /// Block `zero_motion`.
 struct ZeroMotionParams {
   double velocity_std_mps = 0.002;
-  double least_velocity_std_mps = 0.00002;
-  double largest_velocity_std_mps = 0.02;
+  double min_velocity_std_mps = 0.00002;
+  double max_velocity_std_mps = 0.02;
   double adaptation_samples = 20.0;
   double rate_std_deg_per_h = 0.0;
   void visit(ParameterVisitor& v);
