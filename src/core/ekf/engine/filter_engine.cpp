@@ -94,7 +94,7 @@ void FilterEngine::initialize(const InitialState& initial) {
   }
   // A wheel interval that began before the initial state is not known in full and is not used.
   average_.restart(wheels_.start(initial.nav.stamp) ? initial.nav.stamp : 0);
-  constraint_average_.restart(0);
+  constraint_average_ = MeanMotion();
   slipping_speed_.reset();
   last_forward_mps_ = 0.0;
   last_rate_b_.reset();
@@ -270,8 +270,7 @@ void FilterEngine::endGap(const InsStep& step, const NavigationState& before) {
     ImuGapUncertainty::allowForStandstill(before, state_, P_);
   }
   forgetSlipImpulse();
-  average_.restart(0);
-  constraint_average_.restart(0);
+  average_ = constraint_average_ = MeanMotion();
 }
 
 Vector3 FilterEngine::referenceVelocity(const InsStep& step) const {

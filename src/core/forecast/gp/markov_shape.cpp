@@ -161,7 +161,6 @@ double MarkovShape::correlation(double tau) const {
 
 void MarkovShape::maternTransition(double tau, Eigen::Ref<Eigen::MatrixXd> phi) const {
   double factor = std::exp(-rate_ * tau);
-  phi.setZero();
   for (const Eigen::MatrixXd& power : nilpotent_powers_) {
     phi += factor * power;
     factor *= tau;
