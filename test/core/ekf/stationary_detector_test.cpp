@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <vector>
 
 #include "core/base/square.h"
 #include "simulation/random.h"
@@ -175,6 +176,43 @@ TEST_F(StationaryDetectorTest, AfterAResetTheRoverHasNotDriven) {
   detector_.reset();
   run(2.0, engine, kNone, kNone);
   EXPECT_TRUE(verdict_);
+}
+
+/// Neither what it took for rest nor what it took for driving is left.
+TEST_F(StationaryDetectorTest, AResetDetectorIsLikeANewOne) {
+  const Signal rough = [](double t_s) { return 3.0 * std::sin(40.0 * t_s); };
+  const Signal turning = [](double t_s) { return 0.3 * std::sin(30.0 * t_s); };
+  const Signal half = [](double) { return 0.5; };
+  const auto verdicts = [&] {
+    random_ = sim::RandomStream(2, "detector");
+    index_ = 10'000;
+    std::vector<bool> verdicts;
+    for (int i = 0; i < 60; ++i) {
+      const bool drives = i < 15;
+      drives ? run(0.1, rough, turning, half) : rest(0.1);
+      verdicts.insert(verdicts.end(), {verdict_, detector_.isCalmerThanDriving(false)});
+    }
+    return verdicts;
+  };
+  const std::vector<bool> expected = verdicts();
+  detector_.reset();
+  EXPECT_EQ(verdicts(), expected);
+  EXPECT_EQ(std::count(expected.begin(), expected.begin() + 30, true), 0) << "a drive";
+  EXPECT_TRUE(expected.back()) << "and a rest";
+}
+
+/// One sample of wheels that turn is not enough to compare with, however long the IMU has been heard before.
+TEST_F(StationaryDetectorTest, AfterAResetOneSampleIsNoExperience) {
+  detector_.reset();
+  for (int i = 0; i < 50; ++i) {
+    const double shaking = i % 2 == 0 ? 3.0 : -3.0;
+    detector_.addImu(fromSeconds(900.0 + kImuPeriod_s * i), Vector3(shaking, 0.0, -kGravity),
+                     Vector3(0.0, shaking, 0.0));
+  }
+  detector_.addWheels(fromSeconds(901.0), 0.5);
+  EXPECT_FALSE(detector_.judge(kGravity));
+  rest(1.0);
+  EXPECT_FALSE(detector_.isCalmerThanDriving(false));
 }
 
 /// What the data sheet says that the IMU scatters by at its rate is no motion, whatever the limits are.

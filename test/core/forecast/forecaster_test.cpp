@@ -58,6 +58,53 @@ TEST_F(ForecasterTest, RestThatIsNotRecognizedIsNotForecast) {
   }
 }
 
+/// A gyro with a bias of a degree in two or three seconds does not turn a rover that stands.
+TEST_F(ForecasterTest, TurningIsWhatNoGyroShowsAtRest) {
+  const auto forecastsAt = [this](double rate_deg_per_s) {
+    Forecaster forecaster = make();
+    int forecasts = 0;
+    for (int i = 0; i <= 100; ++i) {
+      Estimate e = estimate(i, 0.0, i == 0);
+      e.wheels.motion.forward_mps = 0.0;
+      e.omega_ib_b.z() = degToRad(rate_deg_per_s);
+      forecasts += forecaster.push(e, P_) ? 1 : 0;
+    }
+    return forecasts;
+  };
+  EXPECT_EQ(forecastsAt(0.4), 0);
+  EXPECT_GT(forecastsAt(-1.0), 0);
+}
+
+TEST_F(ForecasterTest, SlipIsForecastToChangeAsFastAsItIsSeenTo) {
+  Forecaster forecaster = make();
+  std::optional<Forecast> last;
+  for (int i = 0; i <= 300; ++i) {
+    const double slip = 0.05 * std::sin(0.1 * i) * std::cos(0.005 * i);
+    if (std::optional<Forecast> forecast = forecaster.push(estimate(i, slip, i == 0), P_)) {
+      last = std::move(forecast);
+    }
+  }
+  EXPECT_GT(last.value().outlook.change_time_s.value(), 3.0 * ForecastParams().wheel_interval_s);
+  EXPECT_EQ(last->outlook.change_time_s, last->correlation.time_constant_s);
+}
+
+/// Stamps that go back: nothing of the first drive is left.
+TEST_F(ForecasterTest, ARecordingThatStartsAgainIsLikeANewOne) {
+  Forecaster fresh = make();
+  const Forecast expected = drive(fresh, 150, 0.02).value();
+  Forecaster experienced = make();
+  base_slip_ = 0.4;
+  factors_.slow_slip = 9.0;
+  drive(experienced, 230, 0.1);
+  base_slip_ = 0.05;
+  factors_ = NoiseFactors{};
+  const Forecast again = drive(experienced, 150, 0.02).value();
+  EXPECT_EQ(again.slip.mean, expected.slip.mean);
+  EXPECT_EQ(again.slip.stddev, expected.slip.stddev);
+  EXPECT_EQ(again.outlook.drift_std, expected.outlook.drift_std);
+  EXPECT_EQ(again.error.horizontal_bound_m, expected.error.horizontal_bound_m);
+}
+
 /// Slip that came and went may have stayed, as an error of the velocity that only a stop can show.
 TEST_F(ForecasterTest, SlipThatShowedIsRememberedUntilTheNextStop) {
   Forecaster shown = make();

@@ -57,5 +57,32 @@ TEST(StopSupervisor, OneThatBecomesActiveStopsTheRover) {
   EXPECT_LT(rig.drive().linear_mps.x(), kSpeed_mps);
 }
 
+/// In every state: what was observed and forecast before is of another time.
+TEST(StopSupervisor, AfterTheClockHasGoneBackItIsLikeANewOne) {
+  for (const Situation& situation : situations()) {
+    Rig rig("advise");
+    situation.reach(rig);
+    rig.stamp -= fromSeconds(500.0);
+    Rig fresh("advise");
+    fresh.stamp = rig.stamp;
+    for (int i = 0; i < 300; ++i) {
+      for (Rig* each : {&rig, &fresh}) {
+        i < 200 ? each->moving() : each->wheelsStandOnly();
+        if (i % 10 == 0 && i > 80) {
+          each->forecast(25.0 - 0.1 * i);
+        }
+      }
+      const SupervisorStatus& status = rig.supervisor.status();
+      const SupervisorStatus& expected = fresh.supervisor.status();
+      ASSERT_EQ(status.state, expected.state) << situation.name << " " << i;
+      ASSERT_EQ(status.time_left_s, expected.time_left_s) << situation.name << " " << i;
+      ASSERT_EQ(status.reason, expected.reason) << situation.name << " " << i;
+      ASSERT_EQ(status.stops, expected.stops) << situation.name << " " << i;
+      ASSERT_EQ(status.refusals, expected.refusals) << situation.name << " " << i;
+      ASSERT_EQ(status.forecasts_stale, expected.forecasts_stale) << situation.name << " " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slipnav::test
