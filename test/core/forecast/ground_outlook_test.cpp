@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "core/base/square.h"
 #include "forecaster_fixture.h"
@@ -68,19 +70,43 @@ TEST_F(ForecasterTest, RoadIsForecastAsGoodAsItIsKnownToBe) {
 /// Where the filter has inflated slip and speed, which the wheels cannot distinguish, the error grows accordingly.
 TEST_F(ForecasterTest, DoubtOfTheFilterIsDoubtOfTheForecast) {
   constexpr double kDoubt = 0.3;
-  Forecaster calm = make();
-  const double calm_m = drive(calm, 160, 0.02).value().error.horizontal_bound_m.front();
-  Forecaster doubting = make();
-  drive(doubting, 149, 0.02);
-  P_(kSlowSlip, kSlowSlip) += square(kDoubt);
-  P_(kVelocity + 1, kVelocity + 1) += square(kDoubt * kWheelSpeed_mps);
-  std::optional<Forecast> last;
-  for (int i = 150; i <= 160; ++i) {
-    if (std::optional<Forecast> forecast = doubting.push(estimate(i, slipAt(i, 0.02)), P_)) {
-      last = std::move(forecast);
+  const ErrorCovariance sure = P_;
+  const auto boundWith = [&](double slip_doubt, double speed_doubt) {
+    P_ = sure;
+    Forecaster forecaster = make();
+    drive(forecaster, 149, 0.02);
+    P_(kSlowSlip, kSlowSlip) += square(slip_doubt);
+    P_(kVelocity + 1, kVelocity + 1) += square(speed_doubt * kWheelSpeed_mps);
+    std::optional<Forecast> last;
+    for (int i = 150; i <= 160; ++i) {
+      if (std::optional<Forecast> forecast = forecaster.push(estimate(i, slipAt(i, 0.02)), P_)) {
+        last = std::move(forecast);
+      }
     }
-  }
-  EXPECT_GT(last.value().error.horizontal_bound_m.front(), 1.2 * calm_m);
+    return last.value().error.horizontal_bound_m.front();
+  };
+  const double calm_m = boundWith(0.0, 0.0);
+  EXPECT_GT(boundWith(kDoubt, kDoubt), 1.5 * calm_m);
+}
+
+/// Of more steps each is as much shorter.
+TEST_F(ForecasterTest, ErrorGrowsWithTheWayNotWithTheNumberOfSteps) {
+  const auto growthWith = [this](double step_s) {
+    constexpr double kHorizon_s = 30.0;
+    const FilterSetup setup = Config().navigation().filter;
+    CovarianceForecast covariance(Planet::byName("earth"), setup, step_s, ForecastParams().wheel_interval_s);
+    covariance.restart(P_, true);
+    DriveStep step;
+    step.state = estimate(1, 0.05).nav;
+    step.speed_mps = 0.95 * kWheelSpeed_mps;
+    step.wheel_speed_mps = kWheelSpeed_mps;
+    step.wheel_share = 1.0;
+    GroundOutlook outlook = covariance.assumption();
+    outlook.change_time_s = 1.0;
+    const auto count = static_cast<std::size_t>(std::lround(kHorizon_s / step_s));
+    return covariance.ahead(std::vector<DriveStep>(count, step), outlook).back();
+  };
+  EXPECT_NEAR(growthWith(0.25) / growthWith(0.5), 1.0, 0.005);
 }
 
 }  // namespace

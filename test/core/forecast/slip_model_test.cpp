@@ -61,6 +61,9 @@ TEST(SlipModel, EveryModelAndInferenceFitsTheRecordedWindow) {
       EXPECT_GT(fit.log_marginal_likelihood, 195.0);
       EXPECT_LT(fit.log_marginal_likelihood, 214.0);
       EXPECT_EQ(fit.hyperparameters.size(), hyperparameterNames(latentModelByName(name)).size());
+      EXPECT_EQ(fit.hyperparameter("variance"), fit.hyperparameters.front().second);
+      EXPECT_EQ(fit.hyperparameter("noise_variance"), fit.hyperparameters.back().second);
+      EXPECT_EQ(fit.hyperparameter("of another model"), 0.0);
       expectFinite(model, lastTime());
     }
   }
@@ -332,7 +335,9 @@ TEST(SlipModel, AnEmptyBudgetIsSaid) {
   SlipModelParameters parameters = parametersOf("paper");
   parameters.max_evaluations = 1;
   GaussianProcessSlipModel model(parameters);
-  EXPECT_EQ(model.fit(readGpSlip()).status, SlipFitStatus::kNotConverged);
+  const SlipFit fit = model.fit(readGpSlip());
+  EXPECT_EQ(fit.status, SlipFitStatus::kNotConverged);
+  EXPECT_EQ(fit.evaluations, 5) << "one from each of three starts, and two where the best of them is refined";
   expectFinite(model, lastTime());
 }
 

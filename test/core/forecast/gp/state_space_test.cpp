@@ -200,6 +200,19 @@ TEST(StateSpaceGaussianProcess, RefusesWhatItCannotDo) {
   EXPECT_THROW(markov.predictCovariance(evenTimes(1, 1.99)), std::invalid_argument);
 }
 
+TEST(MarkovShape, MatricesAreThoseOfItsStates) {
+  for (const Correlation correlation : {Correlation::kConstant, Correlation::kRbf, Correlation::kMatern12,
+                                        Correlation::kMatern32, Correlation::kMatern52, Correlation::kMatern72}) {
+    const MarkovShape shape(correlation);
+    const Eigen::Index n = shape.dimension();
+    for (const Eigen::MatrixXd& matrix : {shape.drift(), shape.stationaryCovariance()}) {
+      EXPECT_EQ(matrix.rows(), n);
+      EXPECT_EQ(matrix.cols(), n);
+    }
+    EXPECT_NEAR(shape.correlation(0.0), 1.0, 1e-12);
+  }
+}
+
 TEST(MarkovShape, CorrelationIsThatOfTheKernel) {
   struct Shape {
     Correlation correlation;
