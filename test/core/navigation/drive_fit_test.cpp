@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "slipnav/core/base/rotation.h"
@@ -90,10 +91,74 @@ TEST_F(DriveFitTest, FindsHeadingStartAndScale) {
   EXPECT_NEAR(fit->distance_m, track().reach(), 0.1);
 }
 
+TEST_F(DriveFitTest, AVehicleOfWhichNoWheelHasBeenHeardHasNoWay) {
+  StartRecording only_imu{StationaryParams{}, ImuFloor{}, 9.8, 5.0, 600.0};
+  for (const ImuSample& sample : recording_.imu()) {
+    only_imu.push(sample);
+  }
+  EXPECT_EQ(DriveTrack(only_imu, fromSeconds(kBegin_s), 0.0, Vector3::Zero()).reach(), 0.0);
+}
+
+/// Of wheels whose samples end before those of the IMU.
+TEST_F(DriveFitTest, TheLastSpeedThatIsKnownLasts) {
+  const double reach_m = track().reach();
+  WheelMotion wheels = recording_.wheels().back();
+  wheels.stamp += 1;
+  wheels.motion.forward_mps = wheels.largest_speed_mps = 2.0 * kSpeed_mps;
+  recording_.push(wheels);
+  ImuSample sample = recording_.imu().back();
+  sample.stamp += fromSeconds(0.1);
+  recording_.push(sample);
+  EXPECT_NEAR(track().reach() - reach_m, 0.1 * 2.0 * kSpeed_mps, 0.01);
+}
+
 TEST_F(DriveFitTest, FindsTheLagOfAnotherClockInBothDirections) {
   EXPECT_EQ(lag(fixes(0.0, kNone), 50.0), std::nullopt);
   EXPECT_NEAR(lag(fixes(9.0, kNone), 50.0).value_or(0.0), -9.0, 0.5);
   EXPECT_NEAR(lag(fixes(-9.0, kNone), 50.0).value_or(0.0), 9.0, 0.5);
+}
+
+TEST_F(DriveFitTest, FindsTheLagOfABufferThatHoldsHalfAMinute) {
+  EXPECT_NEAR(lag(fixes(30.0, kNone), 88.0).value_or(0.0), -30.0, 0.5);
+}
+
+/// A fix far off that does not say so.
+TEST_F(DriveFitTest, OutliersHardlyMoveTheFit) {
+  const Damage far_off = [](double t_s, Vector2& ne_m) { ne_m.x() += std::fmod(t_s, 4.0) < 0.1 ? 6.0 : 0.0; };
+  const std::optional<DriveFit> fit = fitDrive(planet_, fixes(0.0, far_off), track(), kReference, fromSeconds(kBegin_s),
+                                               fromSeconds(kBegin_s + kEnd_s));
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->heading_rad, kHeading_rad, 1e-3);
+  EXPECT_LT((fit->start_ne_m - kStart_ne_m).norm(), 0.01);
+}
+
+TEST_F(DriveFitTest, HeightIsThatOfTheRest) {
+  std::vector<PositionFix> all = fixes(0.0, kNone);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i].position.height_m += i % 20 == 3 ? 9.0 : 0.01 * (i % 2 == 0 ? 1.0 : -1.0);
+    all[i].position.height_m += toSeconds(all[i].stamp) > kBegin_s + kRest_s ? 2.0 : 0.0;  // uphill
+  }
+  const double height_m = meanHeight(all, fromSeconds(kBegin_s), fromSeconds(kBegin_s + kRest_s));
+  EXPECT_NEAR(height_m, kReference.height_m, 0.01);
+  EXPECT_EQ(meanHeight(all, 0, 1), all.front().position.height_m) << "of no fix in the rest the first one";
+}
+
+TEST_F(DriveFitTest, HeightIsWeighedByWhatTheReceiverSays) {
+  std::vector<PositionFix> two(2, fixes(0.0, kNone).front());
+  two[0].variance_ned_m2.z() = 1.0;
+  two[1].variance_ned_m2.z() = 4.0;
+  two[1].position.height_m += 0.1;
+  EXPECT_NEAR(meanHeight(two, 0, two.front().stamp) - kReference.height_m, 0.1 / 5.0, 1e-3);
+}
+
+TEST(DriveFit, ALagIsDescribedByItsDirection) {
+  EXPECT_NE(describeLag(9.0).find("9.0 s too early"), std::string::npos);
+  EXPECT_NE(describeLag(-9.0).find("9.0 s too late"), std::string::npos);
+  EXPECT_EQ(describeLag(9.0).find("GPS time"), std::string::npos);
+  for (const double leap_s : {17.5, -18.0, 18.5}) {
+    EXPECT_NE(describeLag(leap_s).find("GPS time instead of UTC"), std::string::npos) << leap_s;
+  }
+  EXPECT_EQ(describeLag(19.5).find("GPS time"), std::string::npos);
 }
 
 /// A lag that moved the newest fixes beyond the recording would omit just those that contradict.

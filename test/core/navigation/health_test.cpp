@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <string>
+
 #include "recorded_drive.h"
 
 namespace slipnav::test {
@@ -23,52 +26,75 @@ TEST(HealthMonitor, NamesWhatIsWrongWithTheImu) {
   EXPECT_EQ(stuck.count, 2U);
 }
 
-TEST(HealthMonitor, SilentAndContradictingWheelsAreNoticed) {
-  const Config config = driveConfig(6.0);
-  const RecordedDrive drive = recordDrive(config);
-  const NavigationSetup setup = config.navigation();
-  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialize(drive.initial);
-  HealthMonitor health(setup.filter);
-  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
-  const Nanoseconds silent_from = drive.samples.back().stamp() - 3 * kSecond;
-  for (DriveSample sample : drive.samples) {
-    if (sample.is_imu) {
-      navigator.push(sample.imu, ignore);
-    } else if (sample.stamp() < silent_from) {
-      sample.wheels.circumferential_mps[2] = 0.0;
-      health.noteWheels(sample.wheels, navigator.push(sample.wheels, ignore));
+/// A short drive; what the monitor says when its wheel samples are changed, or lost, on their way.
+class HealthOfADrive : public ::testing::Test {
+ protected:
+  /// @return false for a sample that is lost
+  using Change = std::function<bool(WheelMotion& wheels)>;
+
+  Alarms alarmsWith(const Change& change) const {
+    const NavigationSetup setup = config_.navigation();
+    Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
+    navigator.initialize(drive_.initial);
+    HealthMonitor health(setup.filter);
+    const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
+    for (DriveSample sample : drive_.samples) {
+      if (sample.is_imu) {
+        navigator.push(sample.imu, ignore);
+      } else if (change(sample.wheels)) {
+        health.noteWheels(sample.wheels, navigator.push(sample.wheels, ignore));
+      }
+      health.noteFilter(navigator.filter());
     }
-    health.noteFilter(navigator.filter());
+    return health.alarms();
   }
-  EXPECT_EQ(health.alarms().count("back_left_wheel contradicts the other wheels"), 1U);
-  EXPECT_EQ(health.alarms().count("front_left_wheel contradicts the other wheels"), 0U);
-  ASSERT_EQ(health.alarms().count("wheels silent"), 1U);
-  EXPECT_GE(health.alarms().at("wheels silent").first, silent_from);
+  Nanoseconds beforeTheEnd(double duration_s) const { return drive_.samples.back().stamp() - fromSeconds(duration_s); }
+
+  const Config config_ = driveConfig(6.0);
+  const RecordedDrive drive_ = recordDrive(config_);
+};
+
+TEST_F(HealthOfADrive, SilentAndContradictingWheelsAreNoticed) {
+  const Nanoseconds silent_from = beforeTheEnd(3.0);
+  const Alarms alarms = alarmsWith([&](WheelMotion& wheels) {
+    wheels.circumferential_mps[2] = 0.0;
+    return wheels.stamp < silent_from;
+  });
+  EXPECT_EQ(alarms.count("back_left_wheel contradicts the other wheels"), 1U);
+  EXPECT_EQ(alarms.count("front_left_wheel contradicts the other wheels"), 0U);
+  ASSERT_EQ(alarms.count("wheels silent"), 1U);
+  EXPECT_GE(alarms.at("wheels silent").first, silent_from);
 }
 
 /// A measurement that was rejected for long and is no longer made contradicts nothing.
-TEST(HealthMonitor, WhatIsNotMeasuredContradictsNothing) {
-  const Config config = driveConfig(6.0);
-  const RecordedDrive drive = recordDrive(config);
-  const NavigationSetup setup = config.navigation();
-  Navigator navigator(Planet::byName("earth"), setup.imu_input, setup.filter);
-  navigator.initialize(drive.initial);
-  HealthMonitor health(setup.filter);
-  const auto ignore = [](const Estimate&, const ErrorCovariance&) {};
-  const Nanoseconds wrong_from = drive.samples.back().stamp() - 9 * kSecond;  // driving
-  const Nanoseconds silent_from = drive.samples.back().stamp() - 7 * kSecond;
-  for (DriveSample sample : drive.samples) {
-    if (sample.is_imu) {
-      navigator.push(sample.imu, ignore);
-    } else if (sample.stamp() < silent_from) {
-      sample.wheels.motion.yaw_rate_radps += sample.stamp() > wrong_from ? 3.0 : 0.0;
-      navigator.push(sample.wheels, ignore);
+TEST_F(HealthOfADrive, WhatIsNotMeasuredContradictsNothing) {
+  const Nanoseconds wrong_from = beforeTheEnd(9.0);  // driving
+  const Nanoseconds silent_from = beforeTheEnd(7.0);
+  const Alarms alarms = alarmsWith([&](WheelMotion& wheels) {
+    wheels.motion.yaw_rate_radps += wheels.stamp > wrong_from ? 3.0 : 0.0;
+    return wheels.stamp < silent_from;
+  });
+  ASSERT_EQ(alarms.count("yaw_rate contradicts"), 1U);
+  EXPECT_LT(alarms.at("yaw_rate contradicts").last, silent_from + kSecond);
+}
+
+TEST_F(HealthOfADrive, OfSoundWheelsSaysNothing) {
+  EXPECT_TRUE(alarmsWith([](WheelMotion&) { return true; }).empty());
+}
+
+/// At the end of the drive, where the rover stands.
+TEST_F(HealthOfADrive, WheelsThatTurnOnTheSpotAreNoticed) {
+  const Nanoseconds stuck_from = beforeTheEnd(3.0);
+  const Alarms alarms = alarmsWith([&](WheelMotion& wheels) {
+    if (wheels.stamp > stuck_from) {
+      wheels.circumferential_mps.fill(0.8);
+      wheels.largest_speed_mps = wheels.motion.forward_mps = 0.8;
     }
-    health.noteFilter(navigator.filter());
-  }
-  ASSERT_EQ(health.alarms().count("yaw_rate contradicts"), 1U);
-  EXPECT_LT(health.alarms().at("yaw_rate contradicts").last, silent_from + kSecond);
+    return true;
+  });
+  const std::string stuck = "stuck: the wheels turn but the rover does not move";
+  ASSERT_EQ(alarms.count(stuck), 1U);
+  EXPECT_GT(alarms.at(stuck).first, stuck_from);
 }
 
 }  // namespace

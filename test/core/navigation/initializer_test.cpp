@@ -130,9 +130,35 @@ TEST(Initializer, GivenPoseIsTakenAndLevelled) {
   EXPECT_NEAR(euler.y(), truth.y(), 0.006);
   EXPECT_DOUBLE_EQ(radToDeg(initial.nav.position.latitude_rad), 40.0);
   EXPECT_DOUBLE_EQ(initial.nav.position.height_m, 222.0);
+  EXPECT_EQ(initial.origin.latitude_rad, initial.nav.position.latitude_rad) << "the map begins where the rover is";
+  EXPECT_EQ(initial.origin.longitude_rad, initial.nav.position.longitude_rad);
+  EXPECT_EQ(initial.origin.height_m, 222.0);
   EXPECT_EQ(initial.nav.v_eb_n.norm(), 0.0);
   EXPECT_NEAR(initial.P(kAttitude + 2, kAttitude + 2), std::pow(degToRad(2.0), 2), 1e-12);
   EXPECT_NEAR(initial.P(kPosition, kPosition), 0.25, 1e-12);
+}
+
+/// A rest is seen late: once the wheels have rested for a while, and their next sample has come.
+TEST(Initializer, RestIsSeenAlsoWhenWheelsAreSlow) {
+  Config config;
+  config.initialization.source = "given";
+  config.initialization.levelling_window_s = 5.0;
+  const auto isAtRest = [&config](int imu_per_wheels, double rolling_s) {
+    const NavigationSetup setup = config.navigation();
+    Initializer initializer(Planet::byName("earth"), setup.initialization, setup.imu_input, setup.filter);
+    for (int i = 0; i <= 500; ++i) {
+      WheelMotion wheels;
+      wheels.stamp = fromSeconds(1000.0 + 0.01 * i);
+      wheels.motion.forward_mps = wheels.largest_speed_mps = 0.01 * i < rolling_s ? 0.3 : 0.0;
+      if (i % imu_per_wheels == 0) {
+        initializer.push(wheels);
+      }
+      initializer.push(ImuSample{wheels.stamp, Vector3(0.0, 0.0, -9.8), Vector3::Zero()});
+    }
+    return initializer.result().value().P(kVelocity, kVelocity) < std::pow(0.1, 2);
+  };
+  EXPECT_TRUE(isAtRest(100, 0.0));
+  EXPECT_FALSE(isAtRest(40, 0.5)) << "it has rolled for a while";
 }
 
 TEST(Initializer, MotionStartsWhileDriving) {
