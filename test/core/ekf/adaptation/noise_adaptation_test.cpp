@@ -101,6 +101,19 @@ TEST(NoiseAdaptation, APersistentContradictionIsNoNoiseOfTheConstraint) {
   EXPECT_GT(after(kVelocity + 2), 2.0 * before(kVelocity + 2)) << "beside the part of the bias that is unsteady anyway";
 }
 
+TEST(NoiseAdaptation, AVelocityThatStaysToTheSideIsNoSway) {
+  Learner learner;
+  const ErrorVector before = learner.step();
+  sim::RandomStream random(3, "drift");
+  for (int i = 0; i < 30; ++i) {
+    learner.step();
+    learner.sideways(0.06 + 0.02 * random.normal(), square(0.02) * learner.adaptation().factors().lateral);
+  }
+  EXPECT_LT(std::sqrt(learner.adaptation().factors().lateral), 1.5);
+  const ErrorVector after = learner.step();
+  EXPECT_GT(after(kAttitude), 30.0 * before(kAttitude));
+}
+
 TEST(NoiseAdaptation, GroundSlipsAtLeastAsMuchAsItIsSeenTo) {
   Learner learner;
   const double firm = learner.step(0.0)(kSlowSlip);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "core/base/square.h"
 #include "simulation/random.h"
@@ -68,6 +70,31 @@ TEST(NoiseScales, ForgetsOverTheWay) {
   ASSERT_LT(scales.factor(kFastSlipNoise), 0.1);
   scales.fade(2000.0);
   EXPECT_NEAR(scales.factor(kFastSlipNoise), 1.0, 1e-3);
+}
+
+/// Wheels are compared every tenth of a meter, constraints every meter. Either way what was learned is two thirds new
+/// after one length.
+TEST(NoiseScales, WhatHasChangedIsLearnedWithinALength) {
+  const NoiseScaleParams params;
+  const std::vector<std::pair<NoiseKind, double>> intervals_m = {
+      {kWheelNoise, 0.1}, {kFastSlipNoise, 0.1}, {kLateralNoise, 1.0}, {kVerticalNoise, 1.0}};
+  for (const auto& [kind, interval_m] : intervals_m) {
+    NoiseScales scales(params);
+    const auto drive = [&, kind = kind, interval_m = interval_m](double true_std, double lengths) {
+      for (double way_m = 0.0; way_m < lengths * params.length_m; way_m += interval_m) {
+        NoiseVector shares = NoiseVector::Zero();
+        shares(kind) = scales.factor(kind);
+        scales.learn(shares, square(true_std), shares(kind));
+        scales.fade(interval_m);
+      }
+    };
+    drive(1.0, 20.0);
+    const double before = std::log(scales.factor(kind));
+    constexpr double kChanged = 1.1;
+    drive(kChanged, 1.0);
+    const double learned = (std::log(scales.factor(kind)) - before) / std::log(square(kChanged));
+    EXPECT_NEAR(learned, 1.0 - std::exp(-1.0), 0.05) << kind;
+  }
 }
 
 /// Equally uncertain factors learn the same from the same innovation.

@@ -84,6 +84,51 @@ TEST(FilterEngine, FastSlipThatLastsBecomesSlowSlip) {
   EXPECT_GT(largest_slow_slip, 0.2);
 }
 
+/// Wheels that drag can be far slower than the rover. Those that nearly stand do not slip: they are wrong, or the
+/// state.
+TEST(FilterEngine, NoSlipIsThreeTimesTheSpeedOfTheWheels) {
+  Config config = driveConfig(20.0);
+  config.simulator.terrain = "paved";
+  const RecordedDrive drive = recordDrive(config);
+  const Nanoseconds begin = drive.initial.nav.stamp + 20 * kSecond;
+  const auto largestSlipWith = [&](double slower) {
+    std::vector<DriveSample> samples = drive.samples;
+    for (DriveSample& sample : samples) {
+      sample.wheels.motion.forward_mps /= sample.stamp() > begin ? slower : 1.0;
+    }
+    double largest = 0.0;
+    for (const LoggedEstimate& logged : runNavigator(config, drive.initial, samples)) {
+      const Nanoseconds since = logged.estimate.nav.stamp - begin;
+      const double slip = std::abs(logged.estimate.vehicle.fast_slip);
+      largest = since > 0 && since < kSecond / 2 ? std::max(largest, slip) : largest;
+    }
+    return largest;
+  };
+  EXPECT_NEAR(largestSlipWith(2.5), 1.5, 0.3);
+  EXPECT_LT(largestSlipWith(4.0), 0.5);
+}
+
+/// Means over a shorter way come more often, and are worth less in the same proportion.
+TEST(FilterEngine, ConstraintsTellAsMuchHoweverOftenTheyAreUsed) {
+  const auto velocityStd_b = [](double longest_interval_s) {
+    Config config = driveConfig(12.0);
+    config.filter.updates = {"wheel", "nonholonomic"};
+    config.nonholonomic.max_interval_s = longest_interval_s;
+    const RecordedDrive drive = recordDrive(config);
+    EstimateLog log = runNavigator(config, drive.initial, drive.samples);
+    while (log.back().estimate.motion.v_eb_b.x() < 0.5) {
+      log.pop_back();
+    }
+    const Matrix3 C_b_to_n = log.back().estimate.nav.q_b_to_n.toRotationMatrix();
+    const Matrix3 P_n = log.back().P.block<3, 3>(kVelocity, kVelocity);
+    return Vector3((C_b_to_n.transpose() * P_n * C_b_to_n).diagonal().cwiseSqrt());
+  };
+  const Vector3 seldom = velocityStd_b(2.0);
+  const Vector3 often = velocityStd_b(0.1);
+  EXPECT_NEAR(often.y() / seldom.y(), 1.0, 0.4);
+  EXPECT_NEAR(often.z() / seldom.z(), 1.0, 0.25);
+}
+
 /// At rest the gyros show their biases, and the rate of the planet.
 TEST(FilterEngine, FindsTheBiasesOfGyrosAtRest) {
   Config config = driveConfig(2.0);
@@ -104,6 +149,22 @@ TEST(FilterEngine, FindsTheBiasesOfGyrosAtRest) {
     EXPECT_LT(variance, 0.1 * initial.P(kGyroBias + axis, kGyroBias + axis)) << axis;
     EXPECT_NEAR(log.back().estimate.nav.gyro_bias_b(axis), bias_b(axis), 4.0 * std::sqrt(variance)) << axis;
   }
+}
+
+/// The planet turns the rover; no point of it moves over the ground.
+TEST(FilterEngine, ARoverAtRestIsAtRestInEveryPoint) {
+  Config config = driveConfig(2.0);
+  config.filter.updates = {"wheel"};
+  config.imu.mount.x_m = 50.0;
+  const InitialState initial = recordDrive(config).initial;
+  const Planet planet = Planet::byName(config.planet);
+  const Quaternion q_n_to_b = initial.nav.q_b_to_n.conjugate();
+  const std::vector<DriveSample> samples = standing(initial.nav.stamp, [&](ImuSample& imu) {
+    imu.f_ib_b = -(q_n_to_b * planet.gravity_n(initial.nav.position));
+    imu.omega_ib_b = q_n_to_b * planet.omega_ie_n(initial.nav.position.latitude_rad);
+  });
+  const EstimateLog log = runNavigator(config, initial, samples);
+  EXPECT_LT(log[200].estimate.motion.v_eb_b.norm(), 1e-3);
 }
 
 /// An engine shakes a rover that stands: its wheels stand exactly, which says nothing about how they turn.

@@ -32,6 +32,7 @@ TEST(LastingSlip, IsSaidOnceForEachSuchWay) {
 TEST(LastingSlip, WhatTheGroundIsKnownForIsNone) {
   LastingSlip lasting;
   EXPECT_EQ(lasted(lasting, 2.9 * kStd, 50.0), 0);
+  EXPECT_GT(lasted(lasting, 3.1 * kStd, 50.0), 0);
 }
 
 TEST(LastingSlip, ThatChangesSidesIsFast) {

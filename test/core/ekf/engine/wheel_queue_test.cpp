@@ -84,5 +84,27 @@ TEST(WheelQueue, AStartDropsWhatLiesBeforeAndTellsOfASampleOfItsOwnStamp) {
   EXPECT_EQ(queue.take().stamp, 300 * kMillisecond);
 }
 
+/// Those of a rover that waits for its start for long.
+TEST(WheelQueue, BeforeAStartTheNewestSamplesAreKept) {
+  constexpr Nanoseconds kTenMinutes_ms = 600'000;
+  WheelQueue queue(0.5);
+  for (Nanoseconds stamp_ms = 100; stamp_ms <= kTenMinutes_ms; stamp_ms += 100) {
+    EXPECT_TRUE(queue.push(sample(stamp_ms), 0));
+  }
+  queue.start(0);
+  const Nanoseconds oldest_ms = queue.take().stamp / kMillisecond;
+  EXPECT_GT(oldest_ms, 100);
+  EXPECT_LT(oldest_ms, kTenMinutes_ms / 2);
+}
+
+TEST(WheelQueue, OnceStartedNoneIsDropped) {
+  WheelQueue queue(0.5);
+  queue.start(0);
+  for (Nanoseconds stamp_ms = 1; stamp_ms <= 5000; ++stamp_ms) {
+    queue.push(sample(100 * stamp_ms), 0);
+  }
+  EXPECT_EQ(queue.take().stamp, 100 * kMillisecond);
+}
+
 }  // namespace
 }  // namespace slipnav

@@ -168,7 +168,8 @@ TEST(MeasurementNoise, ConstraintsOverLittleWayHoldLittleInformation) {
   params.length_m = 2.0;
   EXPECT_EQ(constraintInformation(params, 3.0), 1.0);
   EXPECT_EQ(constraintInformation(params, 0.5), 0.25);
-  EXPECT_GT(constraintInformation(params, 0.0), 0.0);
+  EXPECT_EQ(constraintInformation(params, 0.12), 0.06);
+  EXPECT_EQ(constraintInformation(params, 0.0), 0.05) << "no way is not quite no information";
 }
 
 TEST(PositionFixModel, PullsTheImuThroughTheLeverArm) {
