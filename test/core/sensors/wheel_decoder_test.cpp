@@ -158,6 +158,23 @@ TEST_F(WheelDecoderTest, UsesPositionsWhereVelocitiesAreAlwaysZero) {
   EXPECT_EQ(remarks, 1);
 }
 
+/// One that turns is enough, whichever.
+TEST_F(WheelDecoderTest, UsesPositionsWhereOneWheelHasTurned) {
+  const Names names = {"left", "right"};
+  for (const double left : {0.0, 1.0}) {
+    WheelDecoder decoder(twoWheels(), kMaxSpeed_mps);
+    std::optional<WheelSample> sample;
+    for (int i = 0; i < 40; ++i) {
+      const Values position = {0.1 * i * left, -0.1 * i * (1.0 - left)};
+      const Values velocity = {0.0, 0.0};
+      sample = decoder.decode({fromSeconds(0.1 * i), names, position, velocity});
+    }
+    ASSERT_TRUE(sample);
+    EXPECT_NEAR(sample->rate_radps[0], left, 1e-9);
+    EXPECT_NEAR(sample->rate_radps[1], 1.0 - left, 1e-9);
+  }
+}
+
 TEST_F(WheelDecoderTest, KeepsVelocitiesThatAreZeroAtRestOnly) {
   const Names names = {"left", "right"};
   decode(fromSeconds(0.1), names, {0.0, 0.0}, {1.0, -1.0});
