@@ -139,6 +139,16 @@ TEST_F(StationaryDetectorTest, AFastImuStillFillsTheWindow) {
   EXPECT_NEAR(detector.window().accel_variance, 0.0, 1e-12);
 }
 
+/// Accelerometers that are half a percent off, but no more.
+TEST_F(StationaryDetectorTest, AForceThatIsNearlyGravityIsRest) {
+  run(
+      2.0, [](double) { return 0.4; }, kNone, kNone);  // 0.03 m/s² more than gravity
+  EXPECT_TRUE(verdict_);
+  run(
+      2.0, [](double) { return 0.9; }, kNone, kNone);  // 0.09 m/s²
+  EXPECT_FALSE(verdict_);
+}
+
 /// A gyro bias that the data sheet allows for is no turn.
 TEST_F(StationaryDetectorTest, ABiasIsNoMotion) {
   ImuFloor floor;

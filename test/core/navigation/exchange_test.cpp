@@ -309,6 +309,8 @@ TEST_F(StarterTest, ContinuesWithAnEstimateThatIsRunning) {
   EXPECT_EQ(news->start.session, 2U);
   EXPECT_TRUE(rest(100.0, 103.0).empty());
   EXPECT_TRUE(starter_.isDone());
+  starter_.replace(5, 104 * kSecond);
+  EXPECT_TRUE(starter_.takeNews().value().start.state.has_value()) << "lost again, it resumes from that";
 }
 
 TEST_F(StarterTest, AnEstimateFromBeforeTheClockWentBackIsNotContinued) {

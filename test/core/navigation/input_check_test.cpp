@@ -6,6 +6,8 @@
 #include <functional>
 #include <string>
 
+#include "slipnav/core/navigation/direction_check.h"
+
 namespace slipnav {
 namespace {
 
@@ -72,6 +74,32 @@ TEST(InputCheck, namesGravityTakenOut) {
   EXPECT_TRUE(has(drive.complaint(), "gravity taken out?")) << drive.complaint();
 }
 
+/// Hard driving and a poor calibration are within a quarter of gravity.
+TEST(InputCheck, namesAForceOfAnotherUnit) {
+  Drive drive;
+  drive.damage = [](ImuSample& s) { s.f_ib_b *= 1.2; };
+  EXPECT_EQ(drive.complaint(), "");
+  for (const double factor : {0.4, 1.35}) {
+    drive.damage = [factor](ImuSample& s) { s.f_ib_b *= factor; };
+    EXPECT_TRUE(has(drive.complaint(), "another unit, or another planet?")) << drive.complaint();
+  }
+  drive.damage = [](ImuSample& s) { s.f_ib_b *= 0.2; };
+  EXPECT_TRUE(has(drive.complaint(), "gravity taken out?")) << drive.complaint();
+}
+
+/// A rover may stand on a steep slope, but on none of 70°.
+TEST(InputCheck, namesAMountingThatNoSlopeExplains) {
+  const auto tilted = [](double angle_deg) {
+    Drive drive;
+    drive.damage = [angle_deg](ImuSample& s) {
+      s.f_ib_b = Eigen::AngleAxisd(degToRad(angle_deg), Vector3::UnitX()) * s.f_ib_b;
+    };
+    return drive.complaint();
+  };
+  EXPECT_FALSE(has(tilted(50.0), "does not point up"));
+  EXPECT_TRUE(has(tilted(70.0), "does not point up"));
+}
+
 TEST(InputCheck, namesGravityUpsideDown) {
   Drive drive;
   drive.damage = [](ImuSample& s) { s.f_ib_b = -s.f_ib_b; };
@@ -116,6 +144,29 @@ TEST(InputCheck, namesWheelsWithTheWrongSign) {
   Drive drive;
   drive.wheel_sign = -1.0;
   EXPECT_TRUE(has(drive.complaint(), "disagree on the direction: wheels[].sign")) << drive.complaint();
+}
+
+/// A start after a halt in which the IMU could not be learned at rest.
+TEST(DirectionCheck, aStartAfterAShortHaltSaysNothing) {
+  const auto contradictsAfter = [](double rest_s) {
+    DirectionCheck check(0.0005);
+    for (int i = 0; i <= 600; ++i) {
+      const double driven_s = std::max(0.01 * i - rest_s, 0.0);
+      ImuSample imu;
+      imu.stamp = fromSeconds(1000.0 + 0.01 * i);
+      imu.f_ib_b = {driven_s > 0.0 && driven_s <= 0.5 ? -1.0 : 0.0, 0.0, -kGravity_mps2};
+      check.push(imu);
+      if (i % 10 == 0) {
+        WheelMotion wheels;
+        wheels.stamp = imu.stamp;
+        wheels.motion.forward_mps = wheels.largest_speed_mps = std::min(driven_s, 0.5);
+        check.push(wheels);
+      }
+    }
+    return check.contradicts();
+  };
+  EXPECT_TRUE(contradictsAfter(3.0));
+  EXPECT_FALSE(contradictsAfter(0.8));
 }
 
 /// A bias of 5°/s and one of 60 mg are nothing of the kind.

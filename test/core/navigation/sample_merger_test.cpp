@@ -89,6 +89,18 @@ TEST_F(SampleMergerTest, OvertakenSamplesAreBroughtIntoOrder) {
   EXPECT_EQ(flush(), "i2000 f2050 w2100 w2200 f2250 w2300 ");
 }
 
+TEST_F(SampleMergerTest, WhileTheImuIsSilentTheNewestSamplesAreKept) {
+  constexpr Nanoseconds kSamples = 120'000;
+  for (Nanoseconds ms = 1; ms <= kSamples; ++ms) {
+    merger_.push(wheelsAt(ms));
+  }
+  std::vector<Nanoseconds> kept;
+  merger_.flush([&kept](const Sample& sample) { kept.push_back(stampOf(sample) / kMillisecond); });
+  EXPECT_GT(kept.size(), 50'000U);
+  EXPECT_LT(kept.size(), 110'000U);
+  EXPECT_EQ(kept.back(), kSamples);
+}
+
 TEST_F(SampleMergerTest, WrongStampsAreLeftOut) {
   merger_.push(imuAt(5000));
   merger_.push(imuAt(0));
