@@ -51,14 +51,14 @@ def biases(run):
         (accel, "accel", MICRO_G, "accelerometer bias and ±3σ [µg]"),
         (gyro, "gyro", DEG_PER_H, "gyro bias and ±3σ [°/h]"),
     ):
-        for axis, name, colour in zip("xyz", AXIS_NAMES, palette.AXES):
+        for axis, name, color in zip("xyz", AXIS_NAMES, palette.AXES):
             time, bias, bound = thinned(
                 run.filter["t"],
                 run.filter[f"{sensor}_bias_{axis}"] / unit,
                 3.0 * run.filter[f"{sensor}_sigma_{axis}"] / unit,
             )
-            band(axes, time, bias - bound, bias + bound, color=colour, alpha=0.15, label="_")
-            axes.plot(time, bias, color=colour, lw=1.2, label=name)
+            band(axes, time, bias - bound, bias + bound, color=color, alpha=0.15, label="_")
+            axes.plot(time, bias, color=color, lw=1.2, label=name)
         shade_standstill(axes, run)
         axes.set_ylabel(label)
         axes.grid(alpha=0.3)

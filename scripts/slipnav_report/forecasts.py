@@ -45,7 +45,7 @@ def growth_since_stop(run):
     return np.hypot(*(errors - reference))
 
 
-def predicted_and_realised(run):
+def predicted_and_realized(run):
     figure, (error, countdown) = plt.subplots(2, 1, sharex=True, figsize=(10, 7), gridspec_kw={"height_ratios": (2, 1)})
     table = run.forecasts
     for i, rows in enumerate(single_forecasts(table)):

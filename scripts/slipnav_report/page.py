@@ -16,7 +16,7 @@ FIGURES = (
     ("track", "Ground track", tracks.ground_track),
     ("errors", "Position error and its ±3σ bounds", tracks.position_errors),
     ("slip", "Slip and its forecast", forecasts.slip_and_forecast),
-    ("forecast", "Forecast and actual error, time to stop", forecasts.predicted_and_realised),
+    ("forecast", "Forecast and actual error, time to stop", forecasts.predicted_and_realized),
     ("velocity", "Velocity", filter_health.velocity),
     ("biases", "IMU biases", filter_health.biases),
     ("consistency", "Consistency: normalized innovations and errors", filter_health.consistency),

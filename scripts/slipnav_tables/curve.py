@@ -81,15 +81,15 @@ def table_row(terrain, point):
             number(point.get("periodic_error_pct"), 2), "-" if beyond is None else f"{beyond} of {point['stretches']}"]
 
 
-def draw_points(axes, points, colour, name):
+def draw_points(axes, points, color, name):
     known = [point for point in points if point["stop_rate_pct"] is not None]
     rates = [point["stop_rate_pct"] for point in known]
     medians = np.array([point["enu_error_pct"]["median"] for point in known], dtype=float)
     above = np.array([point["enu_error_pct"]["worst"] for point in known], dtype=float) - medians
-    axes.errorbar(rates, medians, yerr=[np.zeros(len(known)), above], color=colour, marker="o", ms=5, lw=1.5,
+    axes.errorbar(rates, medians, yerr=[np.zeros(len(known)), above], color=color, marker="o", ms=5, lw=1.5,
                   capsize=3, elinewidth=0.8, label=name)
     for point, rate, error in zip(known, rates, medians):
-        axes.annotate(point["label"], (rate, error), xytext=(4, -12), textcoords="offset points", color=colour,
+        axes.annotate(point["label"], (rate, error), xytext=(4, -12), textcoords="offset points", color=color,
                       fontsize=8)
 
 

@@ -96,8 +96,8 @@ def order_text(data):
 def draw_boxes(axes, data, title):
     boxes = axes.boxplot([found["intervals_s"] for found in data.values()], patch_artist=True, widths=0.6,
                          whis=(0, 100), medianprops={"color": palette.TEXT, "lw": 2})
-    for place, (found, box, colour) in enumerate(zip(data.values(), boxes["boxes"], itertools.cycle(BOX_COLOURS)), 1):
-        box.set(facecolor=colour, alpha=0.6)
+    for place, (found, box, color) in enumerate(zip(data.values(), boxes["boxes"], itertools.cycle(BOX_COLOURS)), 1):
+        box.set(facecolor=color, alpha=0.6)
         values = found["intervals_s"]
         axes.plot(place + np.linspace(-0.2, 0.2, len(values)), values, ".", color=palette.TEXT, ms=3)
     axes.set_xticklabels(data)

@@ -149,7 +149,7 @@ class AidedSmoother::ForwardPass {
     PositionFix weighted = fix;
     weighted.variance_ned_m2 = variance_factor_ * fix.variance_ned_m2.cwiseMax(square(config_.calibration.truth_std_m));
     const Measurement measurement = positionMeasurement(planet_, weighted, state_.nav, lever_to_truth_b_);
-    const std::optional<double> nis = normalisedInnovation(measurement);
+    const std::optional<double> nis = normalizedInnovation(measurement);
     if (!nis || *nis > gate_) {
       ++refused_fixes_;
       return false;
@@ -176,7 +176,7 @@ class AidedSmoother::ForwardPass {
     return innovation;
   }
 
-  std::optional<double> normalisedInnovation(const Measurement& measurement) const {
+  std::optional<double> normalizedInnovation(const Measurement& measurement) const {
     const Innovation innovation = innovationOf(measurement);
     if (innovation.cholesky.info() != Eigen::Success || !measurement.residual.allFinite()) {
       return std::nullopt;

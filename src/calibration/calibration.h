@@ -30,7 +30,7 @@ struct CalibrationResult {
   std::optional<Calibrated> mount_pitch_rad;
   std::optional<Calibrated> mount_yaw_rad;
   std::optional<Calibrated> slip;           ///< mean slip of the wheels beyond the firm ground, on these radii
-  std::optional<Calibrated> turn_centre_m;  ///< ahead of base_link: the point that does not move sideways in turns
+  std::optional<Calibrated> turn_center_m;  ///< ahead of base_link: the point that does not move sideways in turns
   std::vector<std::string> not_observable;  ///< quantity and reason
   std::vector<std::string> warnings;
   double distance_m = 0.0;        ///< driven in the motion used

@@ -124,8 +124,8 @@ std::string calibrationTable(const Config& config, const CalibrationResult& resu
   if (result.slip) {
     table.add("slip beyond firm ground [%]", {100.0 * result.slip->value, 100.0 * result.slip->std}, 2);
   }
-  if (result.turn_centre_m) {
-    table.add("center of turn ahead [m]", *result.turn_centre_m, 4);
+  if (result.turn_center_m) {
+    table.add("center of turn ahead [m]", *result.turn_center_m, 4);
   }
   std::ostringstream out = plainStream();
   out << table.text() << std::setprecision(0) << "from " << result.distance_m << " m with "

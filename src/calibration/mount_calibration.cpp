@@ -11,7 +11,7 @@ namespace {
 /// An angle known less well than this is not reported.
 constexpr double kWorstStd_rad = 0.02;
 /// With less turning the center of turn cannot be separated from the mounting.
-constexpr double kLeastTurnForCentre_rad = 1.5;
+constexpr double kLeastTurnForCenter_rad = 1.5;
 
 /// Ground has its slope over twice this distance; anything shorter is stones under single wheels.
 constexpr double kStones_m = 1.0;
@@ -72,14 +72,14 @@ std::optional<Calibrated> angleOf(const RegressionResult& fit, double attitude_v
 void calibrateYaw(double batch_m, const std::vector<MotionSample>& samples, CalibrationResult& result) {
   const Eigen::VectorXd slopes = crossSlopes(samples);
   const bool slips_down = standardDeviation(slopes) >= kLeastCrossSlope;
-  const bool turns = result.turned_rad >= kLeastTurnForCentre_rad;
-  const int centre = slips_down ? 2 : 1;
+  const bool turns = result.turned_rad >= kLeastTurnForCenter_rad;
+  const int center = slips_down ? 2 : 1;
   const double stretch_m = std::clamp(samples.back().travel_m / kLeastStretches, batch_m, kSideSlipStretch * batch_m);
-  RegressionProblem problem(centre + (turns ? 1 : 0));
+  RegressionProblem problem(center + (turns ? 1 : 0));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Vector3& v_eb_b = samples[i].v_eb_b;
     Eigen::Vector3d row(-v_eb_b.x(), slopes(static_cast<Eigen::Index>(i)) * v_eb_b.x(), 0.0);
-    row(centre) = -samples[i].omega_eb_b.z();
+    row(center) = -samples[i].omega_eb_b.z();
     problem.add(row.head(problem.parameters()), v_eb_b.y(), static_cast<std::size_t>(samples[i].travel_m / stretch_m));
   }
   const RegressionResult fit = regress(problem);
@@ -87,8 +87,8 @@ void calibrateYaw(double batch_m, const std::vector<MotionSample>& samples, Cali
   if (!result.mount_yaw_rad) {
     result.not_observable.push_back("yaw of the IMU: its heading is too uncertain; drive longer, with turns and stops");
   }
-  if (turns && fit.effective_batches(centre) >= kLeastBatches) {
-    result.turn_centre_m = Calibrated{fit.estimate(centre), std::sqrt(fit.covariance(centre, centre))};
+  if (turns && fit.effective_batches(center) >= kLeastBatches) {
+    result.turn_center_m = Calibrated{fit.estimate(center), std::sqrt(fit.covariance(center, center))};
   }
 }
 

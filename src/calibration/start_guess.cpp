@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/ins/levelling.h"
+#include "core/ins/leveling.h"
 #include "evaluation/alignment.h"
 #include "evaluation/planar_dead_reckoning.h"
 #include "evaluation/truth_lag.h"

@@ -131,8 +131,8 @@ double interpolatedLength(const Piece& piece, double standstill_speed_mps) {
   for (std::size_t i = 0; i + 1 < piece.size(); ++i) {
     // noise may move one pair of points but not their neighbors with them
     const Window pair{i, i + 2};
-    const Window neighbours{i - std::min<std::size_t>(i, 1), std::min(i + 3, piece.size())};
-    const double slower_mps = std::min(meanVelocity(piece, pair).norm(), meanVelocity(piece, neighbours).norm());
+    const Window neighbors{i - std::min<std::size_t>(i, 1), std::min(i + 3, piece.size())};
+    const double slower_mps = std::min(meanVelocity(piece, pair).norm(), meanVelocity(piece, neighbors).norm());
     if (slower_mps > standstill_speed_mps) {
       length_m += curveLength(piece, i);
     }

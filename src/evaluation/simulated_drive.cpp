@@ -6,7 +6,7 @@ namespace slipnav {
 
 DriveMoment SimulatedDrive::moment() const {
   const sim::TruthState& truth = rover_.truth();
-  return {truth.stamp, truth.standstill, driver_.initialisationDriveDone()};
+  return {truth.stamp, truth.standstill, driver_.initializationDriveDone()};
 }
 
 VelocityCommand SimulatedDrive::operatorCommand() {

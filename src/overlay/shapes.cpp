@@ -13,12 +13,12 @@ constexpr double kSmoothing_s = 3.0;
 constexpr double kTurnFading_s = 5.0;
 
 /// Closed outline of center + cos·a + sin·b.
-std::vector<Vector3> outline(const Vector3& centre, const Vector3& a, const Vector3& b) {
+std::vector<Vector3> outline(const Vector3& center, const Vector3& a, const Vector3& b) {
   std::vector<Vector3> points;
   points.reserve(kOutlineSegments + 1);
   for (int i = 0; i <= kOutlineSegments; ++i) {
     const double angle_rad = 2.0 * kPi * static_cast<double>(i % kOutlineSegments) / kOutlineSegments;
-    points.emplace_back(centre + std::cos(angle_rad) * a + std::sin(angle_rad) * b);
+    points.emplace_back(center + std::cos(angle_rad) * a + std::sin(angle_rad) * b);
   }
   return points;
 }
@@ -36,18 +36,18 @@ double wrapped(double angle_rad) { return std::remainder(angle_rad, 2.0 * kPi); 
 
 }  // namespace
 
-std::vector<Vector3> errorEllipse(const Vector3& centre_enu_m, const Matrix3& covariance_enu_m2, double sigmas) {
+std::vector<Vector3> errorEllipse(const Vector3& center_enu_m, const Matrix3& covariance_enu_m2, double sigmas) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_enu_m2.topLeftCorner<2, 2>());
   const Vector2 lengths = sigmas * axes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   Vector3 a = Vector3::Zero();
   Vector3 b = Vector3::Zero();
   a.head<2>() = lengths(0) * axes.eigenvectors().col(0);
   b.head<2>() = lengths(1) * axes.eigenvectors().col(1);
-  return outline(centre_enu_m, a, b);
+  return outline(center_enu_m, a, b);
 }
 
-std::vector<Vector3> circle(const Vector3& centre_enu_m, double radius_m) {
-  return outline(centre_enu_m, radius_m * Vector3::UnitX(), radius_m * Vector3::UnitY());
+std::vector<Vector3> circle(const Vector3& center_enu_m, double radius_m) {
+  return outline(center_enu_m, radius_m * Vector3::UnitX(), radius_m * Vector3::UnitY());
 }
 
 void CourseEstimate::add(Nanoseconds stamp, const Vector3& position_enu_m, const Vector3& velocity_enu_mps) {
@@ -90,8 +90,8 @@ std::vector<FanSection> forecastFan(const Course& course, const std::vector<doub
   std::vector<FanSection> sections;
   for (std::size_t i = (n + stride - 1) % stride; i < n; i += stride) {
     const Vector3 to_left = horizontal(bounds_m[i], directionAfter(course, times_s[i]) + 0.5 * kPi);
-    const Vector3 centre = positionAfter(course, times_s[i]);
-    sections.push_back({times_s[i], bounds_m[i], centre, centre + to_left, centre - to_left});
+    const Vector3 center = positionAfter(course, times_s[i]);
+    sections.push_back({times_s[i], bounds_m[i], center, center + to_left, center - to_left});
   }
   return sections;
 }

@@ -9,10 +9,10 @@ namespace slipnav {
 
 /// Horizontal ellipse of `sigmas` standard deviations as a closed outline (the last point is the first).
 /// @param covariance_enu_m2 of the position; only its horizontal part counts
-std::vector<Vector3> errorEllipse(const Vector3& centre_enu_m, const Matrix3& covariance_enu_m2, double sigmas);
+std::vector<Vector3> errorEllipse(const Vector3& center_enu_m, const Matrix3& covariance_enu_m2, double sigmas);
 
 /// Horizontal circle as a closed outline.
-std::vector<Vector3> circle(const Vector3& centre_enu_m, double radius_m);
+std::vector<Vector3> circle(const Vector3& center_enu_m, double radius_m);
 
 /// Where the rover is and how it moves.
 struct Course {
@@ -46,7 +46,7 @@ Vector3 positionAfter(const Course& course, double time_s);
 struct FanSection {
   double time_s = 0.0;
   double bound_m = 0.0;
-  Vector3 centre_enu_m = Vector3::Zero();
+  Vector3 center_enu_m = Vector3::Zero();
   Vector3 left_enu_m = Vector3::Zero();   ///< `bound_m` to the left of the center
   Vector3 right_enu_m = Vector3::Zero();  ///< and to the right
 };

@@ -16,7 +16,7 @@ const QColor kFine(46, 139, 87);
 const QColor kNear(218, 140, 16);
 const QColor kBeyond(200, 40, 40);
 
-const QColor& colourOf(double share) { return share < 0.7 ? kFine : share < 1.0 ? kNear : kBeyond; }
+const QColor& colorOf(double share) { return share < 0.7 ? kFine : share < 1.0 ? kNear : kBeyond; }
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void BoundChart::paintBar(QPainter& painter, const QRectF& place) const {
     const double share = *picture_.bound_m / picture_.threshold_m;
     QRectF filled = place;
     filled.setWidth(place.width() * std::clamp(share, 0.0, 1.0));
-    painter.fillRect(filled, colourOf(share));
+    painter.fillRect(filled, colorOf(share));
   }
   const QString words =
       picture_.bound_m ? QString("%1 of %2 m").arg(*picture_.bound_m, 0, 'f', 2).arg(picture_.threshold_m, 0, 'f', 1)

@@ -83,7 +83,7 @@ void OperatorServices::look() {
   }
   look_ = std::async(std::launch::async, [this] {
     std::set<std::string> there;
-    for (const char* service : {kStopNowService, kOverrideService, kEmergencyStopService, kInitialiseService,
+    for (const char* service : {kStopNowService, kOverrideService, kEmergencyStopService, kInitializeService,
                                 kCheckpointService, kSupervisorParameters, kForecastParameters}) {
       if (ros::service::exists(node_.resolveName(service), false)) {
         there.insert(service);

@@ -129,7 +129,7 @@ void StopPanel::buildButtons() {
   scaleFont(emergency_, 1.4);
   stop_now_ = button("stop_now", "&Stop now", [this] { services_->trigger(kStopNowService); });
   override_ = button("override", "&Override", [this] { services_->set(kOverrideService, !shown_.overridden); });
-  initialize_ = button("initialise", "&Initialize", [this] { services_->trigger(kInitialiseService); });
+  initialize_ = button("initialize", "&Initialize", [this] { services_->trigger(kInitializeService); });
   checkpoint_ = button("checkpoint", "Save &checkpoint", [this] { services_->trigger(kCheckpointService); });
   mode_ = new QComboBox(this);
   mode_->setObjectName("mode");
@@ -225,7 +225,7 @@ void StopPanel::showButtons(const OperatorPicture& picture) {
   enable(emergency_, kEmergencyStopService, false, picture);
   enable(stop_now_, kStopNowService, true, picture);
   enable(override_, kOverrideService, false, picture);
-  enable(initialize_, kInitialiseService, false, picture);
+  enable(initialize_, kInitializeService, false, picture);
   enable(checkpoint_, kCheckpointService, false, picture);
   enable(mode_, kSupervisorParameters, true, picture);
   enable(threshold_, kForecastParameters, false, picture);

@@ -21,7 +21,7 @@ class Driver {
   Command command(const TruthState& truth);
 
   /// The initial rest and the straight drive are over: the counted distance has begun.
-  bool initialisationDriveDone() const { return phase_ >= Phase::kRoute; }
+  bool initializationDriveDone() const { return phase_ >= Phase::kRoute; }
   /// Distance and final rest are done.
   bool finished() const { return phase_ == Phase::kFinished; }
 

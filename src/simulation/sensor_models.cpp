@@ -111,7 +111,7 @@ EncoderAngles EncoderModel::ofLayout(const PerWheel& angle_rad) const {
   return {angle_rad[0], angle_rad[1], angle_rad[2], angle_rad[3]};
 }
 
-double EncoderModel::quantise(double angle_rad, std::size_t wheel) const {
+double EncoderModel::quantize(double angle_rad, std::size_t wheel) const {
   return count_rad_ * std::floor(angle_rad / count_rad_ + offset_counts_[wheel]);
 }
 
@@ -122,9 +122,9 @@ WheelSample EncoderModel::measure(const PerWheel& angle_rad, Nanoseconds stamp) 
   const double dt_s = toSeconds(stamp - last_stamp_);
   const EncoderAngles angles_rad = ofLayout(angle_rad);
   for (std::size_t i = 0; i < count_; ++i) {
-    const double quantised_rad = isDead(i, stamp) ? last_angle_rad_[i] : quantise(angles_rad[i], i);
-    sample.rate_radps[i] = (quantised_rad - last_angle_rad_[i]) / dt_s;
-    last_angle_rad_[i] = quantised_rad;
+    const double quantized_rad = isDead(i, stamp) ? last_angle_rad_[i] : quantize(angles_rad[i], i);
+    sample.rate_radps[i] = (quantized_rad - last_angle_rad_[i]) / dt_s;
+    last_angle_rad_[i] = quantized_rad;
   }
   last_stamp_ = stamp;
   return sample;

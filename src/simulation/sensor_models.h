@@ -84,7 +84,7 @@ class EncoderModel {
   const EncoderAngles& angles() const { return last_angle_rad_; }
 
  private:
-  double quantise(double angle_rad, std::size_t wheel) const;
+  double quantize(double angle_rad, std::size_t wheel) const;
   bool isDead(std::size_t wheel, Nanoseconds stamp) const;
   EncoderAngles ofLayout(const PerWheel& angle_rad) const;
 

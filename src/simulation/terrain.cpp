@@ -20,10 +20,10 @@ struct Transition {
   Eigen::Matrix2d hessian;
 };
 
-Transition transitionAt(const Vector2& from_centre_m) {
-  const double q = from_centre_m.squaredNorm() / (kFirmRadius_m * kFirmRadius_m);
+Transition transitionAt(const Vector2& from_center_m) {
+  const double q = from_center_m.squaredNorm() / (kFirmRadius_m * kFirmRadius_m);
   const double rest = std::exp(-q * q);
-  const Vector2 q_gradient = 2.0 / (kFirmRadius_m * kFirmRadius_m) * from_centre_m;
+  const Vector2 q_gradient = 2.0 / (kFirmRadius_m * kFirmRadius_m) * from_center_m;
   const double first = 2.0 * q * rest;
   const double second = (2.0 - 4.0 * q * q) * rest;
   return {1.0 - rest, first * q_gradient,
@@ -34,7 +34,7 @@ Transition transitionAt(const Vector2& from_centre_m) {
 }  // namespace
 
 Terrain::Terrain(const ReliefParams& relief, double start_heading_rad, double straight_m, std::uint64_t seed)
-    : firm_centre_m_(0.5 * straight_m * Vector2(std::sin(start_heading_rad), std::cos(start_heading_rad))),
+    : firm_center_m_(0.5 * straight_m * Vector2(std::sin(start_heading_rad), std::cos(start_heading_rad))),
       tilt_(std::tan(degToRad(relief.tilt_deg)) * Vector2(std::sin(start_heading_rad), std::cos(start_heading_rad))) {
   RandomStream stream(seed, "terrain");
   setWaves({degToRad(relief.slope_deg), relief.slope_min_wavelength_m, relief.slope_max_wavelength_m, 0, kSlopeWaves},
@@ -42,7 +42,7 @@ Terrain::Terrain(const ReliefParams& relief, double start_heading_rad, double st
   setWaves({degToRad(relief.roughness_deg), relief.roughness_min_wavelength_m, relief.roughness_max_wavelength_m,
             kSlopeWaves, kRoughnessWaves},
            stream);
-  centre_height_m_ = openTerrain(phasesAt(firm_centre_m_)).height_m;
+  center_height_m_ = openTerrain(phasesAt(firm_center_m_)).height_m;
   start_height_m_ = at(Vector2::Zero()).height_m;
 }
 
@@ -83,8 +83,8 @@ SurfacePoint Terrain::openTerrain(const Phases& phases) const {
 
 SurfacePoint Terrain::blended(const Vector2& east_north_m, const Phases& phases) const {
   SurfacePoint open = openTerrain(phases);
-  open.height_m -= centre_height_m_;
-  const Transition blend = transitionAt(east_north_m - firm_centre_m_);
+  open.height_m -= center_height_m_;
+  const Transition blend = transitionAt(east_north_m - firm_center_m_);
   SurfacePoint point;
   point.looseness = blend.value;
   point.height_m = blend.value * open.height_m - start_height_m_ + tilt_.dot(east_north_m);

@@ -68,8 +68,8 @@ class Terrain {
   PerWave wave_north_per_m_;
   PerWave phase_rad_;
   PerWave amplitude_m_;
-  Vector2 firm_centre_m_;
-  double centre_height_m_ = 0.0;  ///< of the open terrain, so that the blend starts from zero height
+  Vector2 firm_center_m_;
+  double center_height_m_ = 0.0;  ///< of the open terrain, so that the blend starts from zero height
   double start_height_m_ = 0.0;
   Vector2 tilt_;  ///< gradient of the whole plane
 };

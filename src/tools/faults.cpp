@@ -104,7 +104,7 @@ class Campaign {
     recording_ = slipnav::readRecording(bag);
     const double drive_s = (recording_.back().time - recording_.front().time).toSec();
     times_.drive = recording_.front().time + ros::Duration(0.5 * drive_s);
-    times_.initialisation = recording_.front().time + ros::Duration(config.simulator.drive.initial_rest_s + 2.0);
+    times_.initialization = recording_.front().time + ros::Duration(config.simulator.drive.initial_rest_s + 2.0);
     undisturbed_ = outcomeOf(bag, config_);
     std::cout << std::left << std::setw(70) << "fault" << std::setw(10) << "survived" << std::setw(12) << "after s"
               << std::setw(9) << "final m" << std::setw(9) << "3 sigma"
@@ -120,12 +120,12 @@ class Campaign {
     for (const Fault* fault : faults) {
       fault->inject(recording, times_);
       name += (name.empty() ? "" : " + ") + fault->name;
-      early = early || fault->at_initialisation;
+      early = early || fault->at_initialization;
     }
     const std::string bag = directory_ + "/disturbed.bag";
     slipnav::writeRecording(bag, recording);
     const Outcome outcome = outcomeOf(bag, config_);
-    return print(name, outcome, early ? times_.initialisation : times_.drive, true);
+    return print(name, outcome, early ? times_.initialization : times_.drive, true);
   }
 
  private:

@@ -76,16 +76,16 @@ Eigen::VectorXd stepped(const GainMeter& meter, Eigen::VectorXd position, std::s
   return position;
 }
 
-std::vector<Eigen::VectorXd> positionsAround(const GainMeter& meter, const Eigen::VectorXd& centre,
+std::vector<Eigen::VectorXd> positionsAround(const GainMeter& meter, const Eigen::VectorXd& center,
                                              const std::vector<std::size_t>& free) {
-  std::vector<Eigen::VectorXd> positions = {centre};
+  std::vector<Eigen::VectorXd> positions = {center};
   for (const std::size_t i : free) {
-    positions.push_back(stepped(meter, centre, i, 1.0));
-    positions.push_back(stepped(meter, centre, i, -1.0));
+    positions.push_back(stepped(meter, center, i, 1.0));
+    positions.push_back(stepped(meter, center, i, -1.0));
   }
   for (std::size_t a = 0; a < free.size(); ++a) {
     for (std::size_t b = 0; b < a; ++b) {
-      positions.push_back(stepped(meter, stepped(meter, centre, free[a], 1.0), free[b], 1.0));
+      positions.push_back(stepped(meter, stepped(meter, center, free[a], 1.0), free[b], 1.0));
     }
   }
   return positions;

@@ -55,9 +55,9 @@ TEST_F(AidedSmootherTest, errorsAreAsLargeAsItsCovarianceSays) {
   double position_nees = 0.0;
   for (const SmoothedEpoch& epoch : smoothed.epochs) {
     const ErrorVector error = errorBetween(planet_, epoch.state.nav, truthAt(epoch.state.nav.stamp));
-    const auto normalised = [&](int index) { return error(index) * error(index) / epoch.P(index, index); };
-    heading_nees += normalised(kAttitude + 2);
-    position_nees += (normalised(kPosition) + normalised(kPosition + 1) + normalised(kPosition + 2)) / 3.0;
+    const auto normalized = [&](int index) { return error(index) * error(index) / epoch.P(index, index); };
+    heading_nees += normalized(kAttitude + 2);
+    position_nees += (normalized(kPosition) + normalized(kPosition + 1) + normalized(kPosition + 2)) / 3.0;
   }
   const double count = static_cast<double>(smoothed.epochs.size());
   EXPECT_LT(heading_nees / count, 6.0);  // one heading error for the whole drive

@@ -106,7 +106,7 @@ TEST(CalibrationInputTest, aStraightDriveTellsRadiiButNotTheScrub) {
   EXPECT_NEAR(result.right_radius_ratio->value / straightDrive().right_radius_ratio, 1.0, 0.003);
   EXPECT_FALSE(result.scrub_factor);
   EXPECT_TRUE(isNotObservable(result, "scrub factor"));
-  EXPECT_FALSE(result.turn_centre_m);
+  EXPECT_FALSE(result.turn_center_m);
 }
 
 TEST(CalibrationInputTest, rollIsNeverClaimed) {

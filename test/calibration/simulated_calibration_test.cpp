@@ -58,7 +58,7 @@ TEST(CalibrationTest, leverArmsOfImuAndTruthCount) {
   EXPECT_LT(sigmas(result.scrub_factor, test::kPavedScrub), 3.0);
   EXPECT_LT(sigmas(result.mount_yaw_rad, degToRad(config.simulator.imu.misalignment_yaw_deg)), 3.0);
   EXPECT_LT(sigmas(result.mount_pitch_rad, degToRad(config.simulator.imu.misalignment_pitch_deg)), 3.0);
-  EXPECT_LT(std::abs(result.turn_centre_m->value), 0.02);
+  EXPECT_LT(std::abs(result.turn_center_m->value), 0.02);
 }
 
 /// On soft ground a rover drives crabwise down a slope, and to one side for meters; both look like a turned IMU.

@@ -40,9 +40,9 @@ TEST_P(ImuGaps, TheCovarianceSaysWhatTheyCost) {
   double coverage_pct = 0.0;
   std::vector<double> final_m;
   for (const DriveResult& result : drives(GetParam())) {
-    const ErrorVector normalised = result.final_error.cwiseQuotient(result.final_sigma.cwiseMax(1e-12));
-    attitude += normalised.segment<3>(kAttitude).squaredNorm() / (3.0 * kDrives);
-    position += normalised.segment<2>(kPosition).squaredNorm() / (2.0 * kDrives);
+    const ErrorVector normalized = result.final_error.cwiseQuotient(result.final_sigma.cwiseMax(1e-12));
+    attitude += normalized.segment<3>(kAttitude).squaredNorm() / (3.0 * kDrives);
+    position += normalized.segment<2>(kPosition).squaredNorm() / (2.0 * kDrives);
     coverage_pct += result.coverage_3sigma_pct / kDrives;
     final_m.push_back(result.final_error.segment<2>(kPosition).norm());
   }

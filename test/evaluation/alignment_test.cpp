@@ -61,7 +61,7 @@ TEST(Alignment, fullPoseUndoesAnyFrame) {
   EXPECT_LT(aligned.samples().back().q_flu_to_enu->angularDistance(drive.back().q_flu_to_enu), 1e-9);
 }
 
-TEST(Alignment, yawUndoesLevelledFramesOnly) {
+TEST(Alignment, yawUndoesLeveledFramesOnly) {
   const EstimateTrack drive = arcDrive();
   const Vector3 origin(-20.0, 7.0, 3.0);
   const TruthTrack level = seenFrom(origin, quaternionFromRotationVector({0.0, 0.0, 2.0}), drive);

@@ -42,7 +42,7 @@ TEST(SimulatedJudge, AnExactEstimateHasNoErrorAndItsStopIsCounted) {
   EXPECT_NEAR(figures.largest_wheel_speed_mps, 1.2, 1e-12);
 }
 
-TEST(SimulatedJudge, ErrorsAreNormalisedAndTimedBeyondThreeSigma) {
+TEST(SimulatedJudge, ErrorsAreNormalizedAndTimedBeyondThreeSigma) {
   ErrorVector error = ErrorVector::Zero();
   error[kPosition + 1] = 4.0;
   error[kVelocity] = 3.0;

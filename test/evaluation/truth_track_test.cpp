@@ -19,7 +19,7 @@ TruthSample sampleAt(double t_s, const Vector3& position_enu_m) {
   return sample;
 }
 
-TEST(TruthTrack, interpolatesLinearlyBetweenNeighbours) {
+TEST(TruthTrack, interpolatesLinearlyBetweenNeighbors) {
   const TruthTrack track({sampleAt(10.0, {0.0, 2.0, 4.0}), sampleAt(11.0, {1.0, 0.0, 8.0})});
   const auto sample = track.at(fromSeconds(10.25));
   ASSERT_TRUE(sample.has_value());
@@ -52,7 +52,7 @@ TEST(TruthTrack, sortsAndDropsRepeatedStamps) {
   EXPECT_EQ(track.samples()[2].position_enu_m.x(), 2.0);
 }
 
-TEST(TruthTrack, interpolatesAttitudeOnlyWhereBothNeighboursHaveOne) {
+TEST(TruthTrack, interpolatesAttitudeOnlyWhereBothNeighborsHaveOne) {
   TruthSample first = sampleAt(0.0, Vector3::Zero());
   first.q_flu_to_enu = quaternionFromRotationVector({0.0, 0.0, 0.0});
   TruthSample second = sampleAt(1.0, Vector3::Zero());

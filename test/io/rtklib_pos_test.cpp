@@ -97,7 +97,7 @@ std::string ecefText() {
   return text;
 }
 
-TEST(RtklibPos, readsEarthCentredCoordinates) {
+TEST(RtklibPos, readsEarthCenterdCoordinates) {
   const auto solutions = parse(
       "%  GPST x-ecef(m) y-ecef(m) z-ecef(m) Q ns sdx(m) sdy(m) sdz(m) sdxy(m) sdyz(m) sdzx(m) age(s) ratio\n"
       "2020/10/15 15:00:18.000 " +
@@ -109,7 +109,7 @@ TEST(RtklibPos, readsEarthCentredCoordinates) {
   EXPECT_LT((solutions[0].fix.covariance_ned_m2 - 0.04 * Matrix3::Identity()).norm(), 1e-12);
 }
 
-TEST(RtklibPos, turnsEarthCentredCovariance) {
+TEST(RtklibPos, turnsEarthCenterdCovariance) {
   // where equator and prime meridian meet x points up, y east, z north
   const auto solutions = parse(
       "%  GPST x-ecef(m) y-ecef(m) z-ecef(m) Q ns sdx(m) sdy(m) sdz(m) sdxy(m) sdyz(m) sdzx(m) age(s) ratio\n"

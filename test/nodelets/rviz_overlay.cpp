@@ -44,7 +44,7 @@ constexpr double kShareOfTrack = 0.85;  // where tracks run into one another, on
 constexpr double kSpacing_m = 0.05;     // of the points of a track that are looked at
 constexpr double kRoverSize_m = 1.0;    // what lies under the model cannot be seen
 constexpr int kSearchRadius_px = 6;
-constexpr int kColourTolerance = 40;  // of 255; edges are blended
+constexpr int kColorTolerance = 40;  // of 255; edges are blended
 
 /// Serves rviz while `condition` holds, at most for the time given.
 template <class Condition>
@@ -56,12 +56,11 @@ void serveWhile(Condition condition, double most_s) {
   }
 }
 
-bool isNear(const QColor& pixel, const Colour& colour) {
+bool isNear(const QColor& pixel, const Color& color) {
   const auto differs = [](int component, float wanted) {
-    return std::abs(component - static_cast<int>(std::lround(255.0F * wanted))) > kColourTolerance;
+    return std::abs(component - static_cast<int>(std::lround(255.0F * wanted))) > kColorTolerance;
   };
-  return !differs(pixel.red(), colour.red) && !differs(pixel.green(), colour.green) &&
-         !differs(pixel.blue(), colour.blue);
+  return !differs(pixel.red(), color.red) && !differs(pixel.green(), color.green) && !differs(pixel.blue(), color.blue);
 }
 
 class RvizOverlay : public ::testing::Test {
@@ -112,10 +111,10 @@ class RvizOverlay : public ::testing::Test {
             static_cast<int>(0.5 * (1.0 - screen.y) * picture_.height())};
   }
 
-  static bool isThereNear(const QPoint& centre, const Colour& colour) {
-    for (int y = centre.y() - kSearchRadius_px; y <= centre.y() + kSearchRadius_px; ++y) {
-      for (int x = centre.x() - kSearchRadius_px; x <= centre.x() + kSearchRadius_px; ++x) {
-        if (picture_.valid(x, y) && isNear(picture_.pixelColor(x, y), colour)) {
+  static bool isThereNear(const QPoint& center, const Color& color) {
+    for (int y = center.y() - kSearchRadius_px; y <= center.y() + kSearchRadius_px; ++y) {
+      for (int x = center.x() - kSearchRadius_px; x <= center.x() + kSearchRadius_px; ++x) {
+        if (picture_.valid(x, y) && isNear(picture_.pixelColor(x, y), color)) {
           return true;
         }
       }
@@ -124,11 +123,11 @@ class RvizOverlay : public ::testing::Test {
   }
 
   /// Of the points that the picture covers, most have the color of their track.
-  static void expectTrack(const std::vector<Vector3>& track, const Colour& colour) {
+  static void expectTrack(const std::vector<Vector3>& track, const Color& color) {
     const Vector3 rover = report_.estimates.back().position_enu_m;
     std::optional<Vector3> last;
     int covered = 0;
-    int coloured = 0;
+    int colored = 0;
     for (const Vector3& position : track) {
       const QPoint pixel = pixelOf(position);
       const bool is_new = !last || (position - *last).head<2>().norm() > kSpacing_m;
@@ -136,11 +135,11 @@ class RvizOverlay : public ::testing::Test {
       if (is_new && !under_rover && picture_.rect().adjusted(20, 20, -20, -20).contains(pixel)) {
         last = position;
         ++covered;
-        coloured += isThereNear(pixel, colour) ? 1 : 0;
+        colored += isThereNear(pixel, color) ? 1 : 0;
       }
     }
     EXPECT_GT(covered, 50);
-    EXPECT_GE(coloured, kShareOfTrack * covered) << "of " << covered;
+    EXPECT_GE(colored, kShareOfTrack * covered) << "of " << covered;
   }
 
   /// Names of all status lines below a property that are errors.
@@ -168,7 +167,7 @@ TEST_F(RvizOverlay, ShowsTheEstimateWhereItIs) {
   for (const EstimateSample& estimate : report_.estimates) {
     track.push_back(estimate.position_enu_m);
   }
-  expectTrack(track, kEstimateColour);
+  expectTrack(track, kEstimateColor);
 }
 
 TEST_F(RvizOverlay, ShowsTheTruthWhereItIs) {
@@ -178,7 +177,7 @@ TEST_F(RvizOverlay, ShowsTheTruthWhereItIs) {
       track.push_back(truth.position_enu_m);
     }
   }
-  expectTrack(track, kTruthColour);
+  expectTrack(track, kTruthColor);
 }
 
 TEST_F(RvizOverlay, ShowsTheDeadReckoningWhereItIs) {
@@ -186,7 +185,7 @@ TEST_F(RvizOverlay, ShowsTheDeadReckoningWhereItIs) {
   for (const PlanarSample& pose : report_.diagnostics.wheel_only) {
     track.emplace_back(pose.east_m, pose.north_m, 0.0);
   }
-  expectTrack(track, kDeadReckoningColour);
+  expectTrack(track, kDeadReckoningColor);
 }
 
 TEST_F(RvizOverlay, ShowsEveryPartOfTheOverlay) {

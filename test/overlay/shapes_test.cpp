@@ -16,13 +16,13 @@ namespace {
 TEST(ErrorEllipse, EveryPointIsAsManySigmasAway) {
   Matrix3 covariance;
   covariance << 4.0, 1.5, 0.3, 1.5, 1.0, 0.2, 0.3, 0.2, 9.0;
-  const Vector3 centre(10.0, 20.0, 30.0);
-  const std::vector<Vector3> outline = errorEllipse(centre, covariance, 3.0);
+  const Vector3 center(10.0, 20.0, 30.0);
+  const std::vector<Vector3> outline = errorEllipse(center, covariance, 3.0);
   ASSERT_GT(outline.size(), 16U);
   EXPECT_EQ(outline.front(), outline.back());
   const Eigen::Matrix2d inverse = covariance.topLeftCorner<2, 2>().inverse();
   for (const Vector3& point : outline) {
-    const Vector2 d = (point - centre).head<2>();
+    const Vector2 d = (point - center).head<2>();
     EXPECT_NEAR(std::sqrt(d.dot(inverse * d)), 3.0, 1e-9);
     EXPECT_EQ(point.z(), 30.0);
   }
@@ -71,7 +71,7 @@ TEST(ForecastFan, LiesAlongTheCourseAsWideAsTheBound) {
   const Course course{{5.0, 0.0, 1.0}, 0.5 * kPi, 0.8, 0.0};  // north
   const std::vector<FanSection> fan = forecastFan(course, {10.0, 20.0}, {0.5, 2.0});
   ASSERT_EQ(fan.size(), 2U);
-  EXPECT_NEAR((fan[1].centre_enu_m - Vector3(5.0, 16.0, 1.0)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR((fan[1].center_enu_m - Vector3(5.0, 16.0, 1.0)).norm(), 0.0, 1e-9);
   EXPECT_NEAR((fan[1].left_enu_m - Vector3(3.0, 16.0, 1.0)).norm(), 0.0, 1e-9);
   EXPECT_NEAR((fan[1].right_enu_m - Vector3(7.0, 16.0, 1.0)).norm(), 0.0, 1e-9);
 }
@@ -96,21 +96,21 @@ TEST(ForecastFan, HasNoMoreSectionsThanAskedForAndEndsAtTheHorizon) {
   EXPECT_TRUE(forecastFan({Vector3::Zero(), 0.0, 1.0, 0.0}, {}, {}).empty());
 }
 
-void expectSame(const Colour& a, const Colour& b) {
+void expectSame(const Color& a, const Color& b) {
   EXPECT_NEAR(a.red, b.red, 1e-6);
   EXPECT_NEAR(a.green, b.green, 1e-6);
   EXPECT_NEAR(a.blue, b.blue, 1e-6);
 }
 
-TEST(Palette, BoundsAndSlipRunThroughTheirColours) {
-  expectSame(boundColour(0.0), kSafeColour);
-  expectSame(boundColour(0.5), kWarningColour);
-  expectSame(boundColour(1.0), kLimitColour);
-  expectSame(boundColour(7.0), kLimitColour);
-  expectSame(slipColour(0.0, 0.3), kNoSlipColour);
-  expectSame(slipColour(0.9, 0.3), kSpinningColour);
-  expectSame(slipColour(-0.3, 0.3), kSkiddingColour);
-  expectSame(slipColour(0.15, 0.3), mix(kNoSlipColour, kSpinningColour, 0.5));
+TEST(Palette, BoundsAndSlipRunThroughTheirColors) {
+  expectSame(boundColor(0.0), kSafeColor);
+  expectSame(boundColor(0.5), kWarningColor);
+  expectSame(boundColor(1.0), kLimitColor);
+  expectSame(boundColor(7.0), kLimitColor);
+  expectSame(slipColor(0.0, 0.3), kNoSlipColor);
+  expectSame(slipColor(0.9, 0.3), kSpinningColor);
+  expectSame(slipColor(-0.3, 0.3), kSkiddingColor);
+  expectSame(slipColor(0.15, 0.3), mix(kNoSlipColor, kSpinningColor, 0.5));
 }
 
 std::string contentOf(const std::string& name) {
@@ -122,40 +122,40 @@ std::string contentOf(const std::string& name) {
 
 int level(float component) { return static_cast<int>(std::lround(255.0F * component)); }
 
-std::string asRviz(const Colour& colour) {
-  return "Color: " + std::to_string(level(colour.red)) + "; " + std::to_string(level(colour.green)) + "; " +
-         std::to_string(level(colour.blue)) + "\n";
+std::string asRviz(const Color& color) {
+  return "Color: " + std::to_string(level(color.red)) + "; " + std::to_string(level(color.green)) + "; " +
+         std::to_string(level(color.blue)) + "\n";
 }
 
-std::string asHex(const Colour& colour) {
+std::string asHex(const Color& color) {
   char text[8];
-  std::snprintf(text, sizeof text, "#%02X%02X%02X", level(colour.red), level(colour.green), level(colour.blue));
+  std::snprintf(text, sizeof text, "#%02X%02X%02X", level(color.red), level(color.green), level(color.blue));
   return text;
 }
 
-TEST(Palette, RvizHasTheSameColours) {
+TEST(Palette, RvizHasTheSameColors) {
   for (const char* name : {"rviz/replay.rviz", "rviz/rover.rviz"}) {
     const std::string text = contentOf(name);
-    for (const Colour& colour : {kEstimateColour, kTruthColour, kDeadReckoningColour}) {
-      EXPECT_NE(text.find(asRviz(colour)), std::string::npos) << name << " lacks " << asRviz(colour);
+    for (const Color& color : {kEstimateColor, kTruthColor, kDeadReckoningColor}) {
+      EXPECT_NE(text.find(asRviz(color)), std::string::npos) << name << " lacks " << asRviz(color);
     }
   }
 }
 
-TEST(Palette, ReportsHaveTheSameColours) {
+TEST(Palette, ReportsHaveTheSameColors) {
   const std::string text = contentOf("scripts/slipnav_report/palette.py");
-  const auto expectColour = [&text](const std::string& name, const Colour& colour) {
-    const std::string line = "\n" + name + " = \"" + asHex(colour) + "\"\n";
+  const auto expectColor = [&text](const std::string& name, const Color& color) {
+    const std::string line = "\n" + name + " = \"" + asHex(color) + "\"\n";
     EXPECT_NE(text.find(line), std::string::npos) << line;
   };
-  expectColour("ESTIMATE", kEstimateColour);
-  expectColour("TRUTH", kTruthColour);
-  expectColour("DEAD_RECKONING", kDeadReckoningColour);
-  expectColour("STOP", kStopColour);
-  expectColour("ERROR", kErrorColour);
-  expectColour("TEXT", kTextColour);
-  expectColour("SAFE", kSafeColour);
-  expectColour("WARNING", kWarningColour);
+  expectColor("ESTIMATE", kEstimateColor);
+  expectColor("TRUTH", kTruthColor);
+  expectColor("DEAD_RECKONING", kDeadReckoningColor);
+  expectColor("STOP", kStopColor);
+  expectColor("ERROR", kErrorColor);
+  expectColor("TEXT", kTextColor);
+  expectColor("SAFE", kSafeColor);
+  expectColor("WARNING", kWarningColor);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ class FakeNodelets {
  public:
   FakeNodelets() {
     node_.setCallbackQueue(&queue_);
-    for (const char* name : {"stop_supervisor/stop_now", "initializer/initialise", "filter/save_checkpoint"}) {
+    for (const char* name : {"stop_supervisor/stop_now", "initializer/initialize", "filter/save_checkpoint"}) {
       serve<std_srvs::Trigger>(name, [](const auto&) { return std::string("called"); });
     }
     for (const char* name : {"stop_supervisor/override", "stop_supervisor/emergency_stop"}) {
@@ -256,8 +256,8 @@ TEST_F(RvizPanel, EveryButtonCallsItsService) {
   ASSERT_TRUE(waitUntil([this] { return text("state") == "OVERRIDE"; }));
   click(button("override"));
   expectCall("stop_supervisor/override false");
-  click(button("initialise"));
-  expectCall("initializer/initialise called");
+  click(button("initialize"));
+  expectCall("initializer/initialize called");
   click(button("checkpoint"));
   expectCall("filter/save_checkpoint called");
   auto* mode = panel_.findChild<QComboBox*>("mode");
@@ -308,14 +308,14 @@ TEST_F(RvizPanel, FitsASmallScreenWithAllItsButtons) {
   panel_.resize(300, 660);
   QApplication::processEvents();
   EXPECT_LE(panel_.height(), 660);
-  for (const char* name : {"stop_now", "override", "initialise", "checkpoint", "emergency_stop"}) {
+  for (const char* name : {"stop_now", "override", "initialize", "checkpoint", "emergency_stop"}) {
     const QPoint corner = button(name)->mapTo(&panel_, button(name)->rect().bottomRight());
     EXPECT_TRUE(panel_.rect().contains(corner)) << name << " " << corner.x() << " " << corner.y();
   }
 }
 
 TEST_F(RvizPanel, IsReachedByTheKeyboard) {
-  for (const char* name : {"emergency_stop", "stop_now", "override", "initialise", "checkpoint"}) {
+  for (const char* name : {"emergency_stop", "stop_now", "override", "initialize", "checkpoint"}) {
     EXPECT_NE(button(name)->focusPolicy() & Qt::TabFocus, 0) << name;
     EXPECT_TRUE(button(name)->text().contains('&')) << name;
   }

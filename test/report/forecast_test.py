@@ -42,9 +42,9 @@ class ForecastTest(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder.name, name)
 
-    def pixels(self, name, colour):
+    def pixels(self, name, color):
         image = matplotlib.image.imread(self.path(name))[:, :, :3].reshape(-1, 3)
-        return np.count_nonzero(np.abs(image - np.array(matplotlib.colors.to_rgb(colour))).max(axis=1) < 0.03)
+        return np.count_nonzero(np.abs(image - np.array(matplotlib.colors.to_rgb(color))).max(axis=1) < 0.03)
 
     def test_terminal_has_a_summary_and_the_file_all_of_it(self):
         result = forecast(SAMPLES, "--out", self.path("all.json"))
@@ -63,8 +63,8 @@ class ForecastTest(unittest.TestCase):
             plain = forecast(SAMPLES, *words)
             result = forecast(SAMPLES, *words, "--report", self.path("picture.png"))
             self.assertEqual((result.returncode, result.stderr, result.stdout), (0, "", plain.stdout))
-            for colour in (palette.TEXT, palette.ESTIMATE):
-                self.assertGreater(self.pixels("picture.png", colour), LEAST_PIXELS, colour)
+            for color in (palette.TEXT, palette.ESTIMATE):
+                self.assertGreater(self.pixels("picture.png", color), LEAST_PIXELS, color)
             os.remove(self.path("picture.png"))
 
     def test_curves_of_the_picture(self):

@@ -179,7 +179,7 @@ class ReportTest(unittest.TestCase):
         """Also where bounds are far from straight between two seconds, or come to it nowhere."""
         run = RunData(self.directory)
         run.metrics = {**self.metrics, "threshold_m": 1.0}
-        error = forecasts.predicted_and_realised(run).axes[0]
+        error = forecasts.predicted_and_realized(run).axes[0]
         self.assertEqual(curve(error, "ε = 1 m").get_ydata()[0], 1.0)
 
     def test_noise_of_truth_is_drawn_where_it_is_larger(self):
@@ -203,7 +203,7 @@ class ReportTest(unittest.TestCase):
         for name in "enu":
             run.timeline["truth_" + name] = np.full(len(run.timeline["t"]), np.nan)
         run.filter["nis_zero_rate"] = np.full(len(run.filter["t"]), np.nan)
-        reasons = [getattr(axes, "empty", "") for draw in (forecasts.predicted_and_realised, filter_health.consistency)
+        reasons = [getattr(axes, "empty", "") for draw in (forecasts.predicted_and_realized, filter_health.consistency)
                    for axes in draw(run).axes]
         self.assertEqual(reasons, ["no forecast and no truth", "no forecast, no countdown", "", "", "", "", "",
                                    "no stop, or none was used", "no truth in this recording", ""])
@@ -216,7 +216,7 @@ class ReportTest(unittest.TestCase):
                 if axes.get_legend():
                     self.assertGreaterEqual(axes.get_legend().get_window_extent().x0, axes.get_window_extent().x1, name)
 
-    def test_page_holds_every_figure_and_each_shows_its_colours(self):
+    def test_page_holds_every_figure_and_each_shows_its_colors(self):
         wanted = {"track": ("ESTIMATE", "TRUTH", "DEAD_RECKONING", "STOP"), "errors": ("ESTIMATE", "ERROR"), "slip": ("TEXT",),
                   "forecast": ("ERROR", "ESTIMATE"), "velocity": ("ESTIMATE", "TRUTH", "DEAD_RECKONING"),
                   "biases": ("ESTIMATE", "ERROR", "STOP"), "consistency": ("ESTIMATE",)}
@@ -228,10 +228,10 @@ class ReportTest(unittest.TestCase):
             with open(os.path.join(self.directory, name + ".png"), "rb") as file:
                 self.assertEqual(file.read(), png)
             pixels = matplotlib.image.imread(io.BytesIO(png))[:, :, :3].reshape(-1, 3)
-            for colour in wanted[name]:
-                rgb = np.array(matplotlib.colors.to_rgb(getattr(palette, colour)))
+            for color in wanted[name]:
+                rgb = np.array(matplotlib.colors.to_rgb(getattr(palette, color)))
                 near = np.count_nonzero(np.abs(pixels - rgb).max(axis=1) < 0.03)
-                self.assertGreater(near, LEAST_PIXELS, f"{name} has no {colour}")
+                self.assertGreater(near, LEAST_PIXELS, f"{name} has no {color}")
 
     def test_page_has_the_table_row(self):
         cells = re.findall(r"<td>([^<]*)</td>", self.page())
@@ -294,8 +294,8 @@ class ReportTest(unittest.TestCase):
         bands = [c for c in axes.collections if c.get_label().startswith("forecast")]
         self.assertAlmostEqual(bands[0].get_paths()[0].get_extents().height, 4 * 0.05, places=6)
 
-    def test_forecast_and_realised_error(self):
-        figure = forecasts.predicted_and_realised(self.run_data)
+    def test_forecast_and_realized_error(self):
+        figure = forecasts.predicted_and_realized(self.run_data)
         error, countdown = figure.axes
         self.assertAlmostEqual(curve(error, "forecast bound").get_ydata()[-1], 1.2)
         grown = curve(error, "error grown since the last stop").get_ydata()

@@ -34,8 +34,8 @@ class InertialIntegrator {
     const double cosine = std::cos(start.latitude_rad);
     const double equatorial_m = (normal_m + start.height_m) * cosine;
     const double polar_m = (squash * normal_m + start.height_m) * sine;
-    start_from_centre_ = Vector3(0.0, -equatorial_m * sine + polar_m * cosine, equatorial_m * cosine + polar_m * sine);
-    position_ = start_from_centre_ + C_b_to_enu * lever_b;
+    start_from_center_ = Vector3(0.0, -equatorial_m * sine + polar_m * cosine, equatorial_m * cosine + polar_m * sine);
+    position_ = start_from_center_ + C_b_to_enu * lever_b;
     velocity_ = omega_ie_.cross(position_);
   }
 
@@ -57,7 +57,7 @@ class InertialIntegrator {
     time_s_ += dt_s;
   }
 
-  Vector3 positionEnu() const { return toPlanet(time_s_) * position_ - start_from_centre_; }
+  Vector3 positionEnu() const { return toPlanet(time_s_) * position_ - start_from_center_; }
   Matrix3 C_b_to_enu() const { return toPlanet(time_s_) * attitude_; }
 
  private:
@@ -66,16 +66,16 @@ class InertialIntegrator {
   /// Gravity without the centrifugal part.
   Vector3 gravitation(const Vector3& position, double time_s) const {
     const Matrix3 C_i_to_enu = toPlanet(time_s);
-    const Vector3 from_centre = C_i_to_enu * position;
-    const Geodetic place = frame_.toGeodetic(from_centre - start_from_centre_);
+    const Vector3 from_center = C_i_to_enu * position;
+    const Geodetic place = frame_.toGeodetic(from_center - start_from_center_);
     const Vector3 gravity = frame_.C_n_to_enu(place) * planet_.gravity_n(place);
-    return C_i_to_enu.transpose() * (gravity + omega_ie_.cross(omega_ie_.cross(from_centre)));
+    return C_i_to_enu.transpose() * (gravity + omega_ie_.cross(omega_ie_.cross(from_center)));
   }
 
   Planet planet_;
   LocalFrame frame_;
   Matrix3 attitude_;
-  Vector3 omega_ie_, start_from_centre_, position_, velocity_;
+  Vector3 omega_ie_, start_from_center_, position_, velocity_;
   Vector3 last_angle_ = Vector3::Zero();
   Vector3 last_velocity_b_ = Vector3::Zero();
   double time_s_ = 0.0;
@@ -136,7 +136,7 @@ TEST(SimInertialTruth, IntegratesToTheTrueMotionOnRoughGround) {
   EXPECT_LT(mismatch.attitude_rad, 3e-6);
 }
 
-TEST(SimInertialTruth, HoldsForASensorAwayFromTheCentre) {
+TEST(SimInertialTruth, HoldsForASensorAwayFromTheCenter) {
   SimulatorParams params = errorFree("rough", 100.0);
   params.imu.lever_arm_x_m = 0.4;
   params.imu.lever_arm_y_m = -0.3;

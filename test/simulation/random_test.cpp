@@ -44,7 +44,7 @@ TEST(SimRandomStream, NormalHasTheMomentsOfAStandardNormal) {
   EXPECT_NEAR(sum4 / count, 3.0, 0.11);
 }
 
-TEST(SimRandomStream, NeighbouringSeedsAreUncorrelated) {
+TEST(SimRandomStream, NeighboringSeedsAreUncorrelated) {
   double product = 0.0;
   const int count = 20000;
   for (int seed = 0; seed < count; ++seed) {

@@ -231,7 +231,7 @@ TEST(SimDriver, RestsDrivesStraightThenTheDistanceThenRests) {
     if (secondsIn(rover.truth()) < params.drive.initial_rest_s) {
       EXPECT_TRUE(rover.truth().standstill);
     }
-    if (!driver.initialisationDriveDone()) {
+    if (!driver.initializationDriveDone()) {
       EXPECT_NEAR(wrapToPi(eulerFrom_q_b_to_n(rover.truth().q_b_to_n).z() - heading_rad), 0.0, degToRad(2.0));
     } else if (straight_m < 0.0) {
       straight_m = rover.truth().distance_m;

@@ -97,7 +97,7 @@ DriveStatistics statisticsOf(const std::string& terrain, int seed, double distan
     if (m.wheel) {
       reckoning.addWheels(*m.wheel, params.vehicle.wheel_radius_m, 1.0 / params.encoder.rate_hz);
     }
-    const bool on_route = driver.initialisationDriveDone();
+    const bool on_route = driver.initializationDriveDone();
     if (on_route && route_start_m < 0.0) {
       route_start_m = truth.distance_m;
       reckoning.restart(truth);
@@ -161,7 +161,7 @@ TEST(SimStatistics, BenignGroundsSlipLessTheFirmerTheyAre) {
             medianOf(gravel, &DriveStatistics::dead_reckoning_pct));
 }
 
-TEST(SimStatistics, InitialisationDriveHardlySlips) {
+TEST(SimStatistics, InitializationDriveHardlySlips) {
   for (const DriveStatistics& drive : drives("rough", 20, 1.0)) {
     EXPECT_LT(std::abs(drive.initial_slip), 0.003);
     EXPECT_LT(drive.initial_side_slip_deg, 0.05);

@@ -50,7 +50,7 @@ struct PredictedRows {
 Measurement::Measurement(int rows)
     : residual(Vector::Zero(rows)), H(Jacobian::Zero(rows, kErrorStates)), variance(Vector::Zero(rows)) {}
 
-std::optional<double> normalisedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P) {
+std::optional<double> normalizedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P) {
   const PredictedRows innovation(measurement, P);
   if (!innovation.usable) {
     return std::nullopt;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/square.h"
-#include "core/ins/levelling.h"
+#include "core/ins/leveling.h"
 #include "core/navigation/navigator.h"
 #include "core/navigation/start_covariance.h"
 #include "slipnav/core/base/rotation.h"
@@ -186,7 +186,7 @@ std::optional<InitialState> Initializer::fromWindow() const {
   const bool at_rest =
       recording_.rest().begin != 0 && recording_.rest().begin <= *begin + slack && recording_.rest().end + slack >= end;
   InitialState initial =
-      levelled(*begin, at_rest ? std::min(end, recording_.rest().end) : end, at_rest, degToRad(params_.heading_deg));
+      leveled(*begin, at_rest ? std::min(end, recording_.rest().end) : end, at_rest, degToRad(params_.heading_deg));
   initial.nav.position = {degToRad(params_.latitude_deg), degToRad(params_.longitude_deg), params_.height_m};
   if (from_truth) {
     initial.nav.position = truth_->position;
@@ -242,7 +242,7 @@ std::optional<DriveFit> Initializer::fitOfDrive(Nanoseconds begin, Nanoseconds e
   const double bias_z = at_rest ? recording_.mean(recording_.rest().begin, recording_.rest().end).omega_ib_b.z()
                                 : degPerHourToRadps(params_.gyro_bias_deg_per_h.at(2));
   const Nanoseconds level_end = at_rest ? recording_.rest().end : begin + fromSeconds(params_.leveling_window_s);
-  const Quaternion q_b_to_level = levelled(begin, level_end, at_rest, 0.0).nav.q_b_to_n;
+  const Quaternion q_b_to_level = leveled(begin, level_end, at_rest, 0.0).nav.q_b_to_n;
   const DriveTrack track(recording_, begin, bias_z, q_b_to_level * setup_.lever_imu_to_antenna_b);
   if (track.reach() < params_.drive_distance_m) {
     return std::nullopt;
@@ -263,7 +263,7 @@ std::optional<DriveFit> Initializer::fitOfDrive(Nanoseconds begin, Nanoseconds e
 
 InitialState Initializer::beginOfDrive(Nanoseconds begin, const DriveFit& fit, bool at_rest) const {
   const Nanoseconds level_end = at_rest ? recording_.rest().end : begin + fromSeconds(params_.leveling_window_s);
-  InitialState initial = levelled(begin, level_end, at_rest, fit.heading_rad);
+  InitialState initial = leveled(begin, level_end, at_rest, fit.heading_rad);
   const std::vector<PositionFix>& fixes = recording_.fixes();
   initial.nav.position = fixes.front().position;
   ErrorVector from_start = ErrorVector::Zero();
@@ -281,7 +281,7 @@ InitialState Initializer::beginOfDrive(Nanoseconds begin, const DriveFit& fit, b
   return initial;
 }
 
-InitialState Initializer::levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const {
+InitialState Initializer::leveled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const {
   InitialState initial;
   initial.nav.stamp = begin;
   initial.nav.accel_bias_b = inBodyAxes(params_.accel_bias_ug, kMicroG);

@@ -184,9 +184,9 @@ std::vector<Fault> timeFaults() {
 
 Fault gpsOutage(const std::string& topic) {
   Fault fault{"GPS outage at initialization, 10 s", [topic](Recording& recording, const FaultTimes& times) {
-                dropMessages<NavSatFix>(topic, times.initialisation, 10.0, recording);
+                dropMessages<NavSatFix>(topic, times.initialization, 10.0, recording);
               }};
-  fault.at_initialisation = true;
+  fault.at_initialization = true;
   return fault;
 }
 

@@ -32,14 +32,14 @@ void writeRecording(const std::string& path, const Recording& recording);
 /// When faults begin; each lasts as long as is typical for it.
 struct FaultTimes {
   ros::Time drive;           ///< in the middle of the drive
-  ros::Time initialisation;  ///< during the search for a start
+  ros::Time initialization;  ///< during the search for a start
 };
 
 /// One fault: its name, and the change it makes to a recording.
 struct Fault {
   std::string name;
   std::function<void(Recording&, const FaultTimes&)> inject;
-  bool at_initialisation = false;
+  bool at_initialization = false;
 };
 
 /// All of them. @param config names topics and ranges

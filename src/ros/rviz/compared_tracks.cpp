@@ -13,7 +13,7 @@ constexpr double kTextHeight_m = 1.2;
 constexpr double kHeight_m = 0.3;
 /// Ten poses a second are more than a screen shows.
 constexpr Nanoseconds kSpacing = kSecond / 10;
-constexpr std::array<Colour, 3> kColours = {kStopColour, kSafeColour, kTextColour};
+constexpr std::array<Color, 3> kColors = {kStopColor, kSafeColor, kTextColor};
 
 std::vector<Vector3> pointsOf(const EstimateTrack& track) {
   std::vector<Vector3> points;
@@ -33,13 +33,13 @@ visualization_msgs::MarkerArray comparedTracks(const std::vector<OtherTrack>& tr
   MarkerBuilder sketch(map_frame, 0, true);
   int id = 0;
   for (const OtherTrack& track : tracks) {
-    const Colour& colour = kColours[static_cast<std::size_t>(id) % kColours.size()];
+    const Color& color = kColors[static_cast<std::size_t>(id) % kColors.size()];
     const std::vector<Vector3> points = pointsOf(track.estimates);
-    sketch.line(track.name, id, points, kWidth_m, colour);
+    sketch.line(track.name, id, points, kWidth_m, color);
     ++id;
     const Vector3 above =
         points.back() + id * kTextHeight_m * Vector3::UnitY();  // several tracks end at the same place
-    sketch.text(track.name + " name", id, above, kTextHeight_m, colour, track.name);
+    sketch.text(track.name + " name", id, above, kTextHeight_m, color, track.name);
   }
   return sketch.markers();
 }

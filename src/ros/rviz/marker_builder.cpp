@@ -4,12 +4,12 @@
 
 namespace slipnav {
 
-std_msgs::ColorRGBA toMessage(const Colour& colour) {
+std_msgs::ColorRGBA toMessage(const Color& color) {
   std_msgs::ColorRGBA message;
-  message.r = colour.red;
-  message.g = colour.green;
-  message.b = colour.blue;
-  message.a = colour.alpha;
+  message.r = color.red;
+  message.g = color.green;
+  message.b = color.blue;
+  message.a = color.alpha;
   return message;
 }
 
@@ -27,7 +27,7 @@ MarkerBuilder::MarkerBuilder(const std::string& frame_id, Nanoseconds stamp, boo
 }
 
 visualization_msgs::Marker& MarkerBuilder::add(const std::string& name, int id, int type, double width_m,
-                                               const Colour& colour) {
+                                               const Color& color) {
   visualization_msgs::Marker& marker = markers_.markers.emplace_back();
   marker.header = header_;
   marker.frame_locked = static_cast<std::uint8_t>(locked_);
@@ -40,31 +40,31 @@ visualization_msgs::Marker& MarkerBuilder::add(const std::string& name, int id, 
   marker.scale.x = is_surface ? 1.0 : width_m;
   marker.scale.y = is_surface ? 1.0 : 0.0;
   marker.scale.z = is_surface ? 1.0 : 0.0;
-  marker.color = toMessage(colour);
+  marker.color = toMessage(color);
   return marker;
 }
 
 void MarkerBuilder::line(const std::string& name, int id, const std::vector<Vector3>& points, double width_m,
-                         const Colour& colour) {
-  visualization_msgs::Marker& marker = add(name, id, visualization_msgs::Marker::LINE_STRIP, width_m, colour);
+                         const Color& color) {
+  visualization_msgs::Marker& marker = add(name, id, visualization_msgs::Marker::LINE_STRIP, width_m, color);
   marker.points.reserve(points.size());
   for (const Vector3& point : points) {
     marker.points.push_back(toPoint(point));
   }
 }
 
-void MarkerBuilder::text(const std::string& name, int id, const Vector3& position, double height_m,
-                         const Colour& colour, const std::string& words) {
-  visualization_msgs::Marker& marker = add(name, id, visualization_msgs::Marker::TEXT_VIEW_FACING, 0.0, colour);
+void MarkerBuilder::text(const std::string& name, int id, const Vector3& position, double height_m, const Color& color,
+                         const std::string& words) {
+  visualization_msgs::Marker& marker = add(name, id, visualization_msgs::Marker::TEXT_VIEW_FACING, 0.0, color);
   marker.pose.position = toPoint(position);
   marker.scale.z = height_m;
   marker.text = words;
 }
 
 void MarkerBuilder::disc(const std::string& name, int id, const Vector3& position, double diameter_m,
-                         const Colour& colour) {
+                         const Color& color) {
   constexpr double kThickness_m = 0.02;
-  visualization_msgs::Marker& marker = add(name, id, visualization_msgs::Marker::CYLINDER, diameter_m, colour);
+  visualization_msgs::Marker& marker = add(name, id, visualization_msgs::Marker::CYLINDER, diameter_m, color);
   marker.pose.position = toPoint(position);
   marker.scale.y = diameter_m;
   marker.scale.z = kThickness_m;

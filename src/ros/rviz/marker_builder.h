@@ -11,7 +11,7 @@
 
 namespace slipnav {
 
-std_msgs::ColorRGBA toMessage(const Colour& colour);
+std_msgs::ColorRGBA toMessage(const Color& color);
 geometry_msgs::Point toPoint(const Vector3& position);
 
 /// One rviz marker array in one frame, built shape by shape.
@@ -21,14 +21,14 @@ class MarkerBuilder {
   MarkerBuilder(const std::string& frame_id, Nanoseconds stamp, bool locked);
 
   /// All without points: a polyline, separate segments and triangles of the given width [m].
-  visualization_msgs::Marker& add(const std::string& name, int id, int type, double width_m, const Colour& colour);
+  visualization_msgs::Marker& add(const std::string& name, int id, int type, double width_m, const Color& color);
 
-  void line(const std::string& name, int id, const std::vector<Vector3>& points, double width_m, const Colour& colour);
+  void line(const std::string& name, int id, const std::vector<Vector3>& points, double width_m, const Color& color);
   /// Text that faces the viewer, centered.
-  void text(const std::string& name, int id, const Vector3& position, double height_m, const Colour& colour,
+  void text(const std::string& name, int id, const Vector3& position, double height_m, const Color& color,
             const std::string& words);
   /// Flat disc.
-  void disc(const std::string& name, int id, const Vector3& position, double diameter_m, const Colour& colour);
+  void disc(const std::string& name, int id, const Vector3& position, double diameter_m, const Color& color);
 
   const visualization_msgs::MarkerArray& markers() const { return markers_; }
 

@@ -36,21 +36,21 @@ std::string errorLine(const DriveView& picture) {
 
 /// One line of the legend: a swatch that blends one color into another, and its meaning.
 struct Entry {
-  Colour from;
-  Colour to;
+  Color from;
+  Color to;
   std::string meaning;
 };
 
 std::array<Entry, 8> legendEntries(const OverlayParams& params) {
   const std::string full = formatted(params.slip_full_scale, 1);
-  return {{{kEstimateColour, kEstimateColour, "estimate, 3 sigma"},
-           {kTruthColour, kTruthColour, "truth"},
-           {kDeadReckoningColour, kDeadReckoningColour, "wheels and gyro alone"},
-           {kErrorColour, kErrorColour, "error"},
-           {kStopColour, kStopColour, "stop: error before > after"},
-           {kSkiddingColour, kNoSlipColour, "slip -" + full + " to 0"},
-           {kNoSlipColour, kSpinningColour, "slip 0 to " + full},
-           {kSafeColour, kLimitColour, "forecast: 0 to threshold"}}};
+  return {{{kEstimateColor, kEstimateColor, "estimate, 3 sigma"},
+           {kTruthColor, kTruthColor, "truth"},
+           {kDeadReckoningColor, kDeadReckoningColor, "wheels and gyro alone"},
+           {kErrorColor, kErrorColor, "error"},
+           {kStopColor, kStopColor, "stop: error before > after"},
+           {kSkiddingColor, kNoSlipColor, "slip -" + full + " to 0"},
+           {kNoSlipColor, kSpinningColor, "slip 0 to " + full},
+           {kSafeColor, kLimitColor, "forecast: 0 to threshold"}}};
 }
 
 }  // namespace
@@ -80,10 +80,10 @@ void drawLegend(const OverlayParams& params, MarkerBuilder& sketch) {
     lines.colors.insert(lines.colors.end(), {toMessage(entry.from), toMessage(entry.to)});
     const double half_width_m = 0.5 * widthOf(entry.meaning, params.text_height_m);
     sketch.text("legend", row + 1, end + Vector3(params.text_height_m + half_width_m, 0.0, 0.0), params.text_height_m,
-                kTextColour, entry.meaning);
+                kTextColor, entry.meaning);
     ++row;
   }
-  Marker& swatches = sketch.add("legend", 0, Marker::LINE_LIST, kSwatchWidth_m, kTextColour);
+  Marker& swatches = sketch.add("legend", 0, Marker::LINE_LIST, kSwatchWidth_m, kTextColor);
   swatches.points = lines.points;
   swatches.colors = lines.colors;
 }

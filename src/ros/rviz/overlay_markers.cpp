@@ -40,21 +40,21 @@ void drawSlip(const DriveView& picture, const OverlayParams& params, MarkerBuild
   if (points.size() < 2) {
     return;
   }
-  Marker& marker = sketch.add("slip", 0, Marker::LINE_STRIP, kSlipWidth_m, kNoSlipColour);
+  Marker& marker = sketch.add("slip", 0, Marker::LINE_STRIP, kSlipWidth_m, kNoSlipColor);
   marker.points.reserve(points.size());
   marker.colors.reserve(points.size());
   for (const TrackPoint& point : points) {
     marker.points.push_back(toPoint(raised(point.position_enu_m, kSlipHeight_m)));
-    marker.colors.push_back(toMessage(slipColour(point.slip.value_or(0.0), params.slip_full_scale)));
+    marker.colors.push_back(toMessage(slipColor(point.slip.value_or(0.0), params.slip_full_scale)));
   }
 }
 
 void drawError(const DriveView& picture, MarkerBuilder& sketch) {
   const EstimateSample& newest = *picture.newest();
   sketch.line("ellipse", 0, errorEllipse(newest.position_enu_m, newest.covariance_enu_m2, kSigmas), kThinLine_m,
-              kEstimateColour);
+              kEstimateColor);
   if (const std::optional<TruthPair>& pair = picture.newestPair()) {
-    sketch.line("error", 0, {pair->estimate.position_enu_m, pair->truth.position_enu_m}, kThinLine_m, kErrorColour);
+    sketch.line("error", 0, {pair->estimate.position_enu_m, pair->truth.position_enu_m}, kThinLine_m, kErrorColor);
   }
 }
 
@@ -70,10 +70,10 @@ void drawStops(const DriveView& picture, const OverlayParams& params, MarkerBuil
   constexpr double kTextRatio = 0.75;  // smaller than the legend
   for (const LoggedStop& stop : picture.stops().stops()) {
     sketch.disc("stops", stop.number, raised(stop.position_enu_m, kStopHeight_m), kStopDiameter_m,
-                withAlpha(kStopColour, 0.8F));
+                withAlpha(kStopColor, 0.8F));
     const Vector3 beside(0.0, kStopDiameter_m + params.text_height_m, kLabelHeight_m);
-    sketch.text("stop labels", stop.number, stop.position_enu_m + beside, kTextRatio * params.text_height_m,
-                kTextColour, stopWords(stop));
+    sketch.text("stop labels", stop.number, stop.position_enu_m + beside, kTextRatio * params.text_height_m, kTextColor,
+                stopWords(stop));
   }
 }
 
@@ -82,12 +82,12 @@ void addTriangle(const FanSection& a, const FanSection& b, const FanSection& c, 
   const std::array<const FanSection*, 3> sections = {&a, &b, &c};
   for (std::size_t i = 0; i < corners.size(); ++i) {
     marker.points.push_back(toPoint(raised(corners[i], kFanHeight_m)));
-    marker.colors.push_back(toMessage(withAlpha(boundColour(sections[i]->bound_m / threshold_m), kFanAlpha)));
+    marker.colors.push_back(toMessage(withAlpha(boundColor(sections[i]->bound_m / threshold_m), kFanAlpha)));
   }
 }
 
 void drawFanSurface(const std::vector<FanSection>& sections, double threshold_m, MarkerBuilder& sketch) {
-  Marker& fan = sketch.add("forecast", 0, Marker::TRIANGLE_LIST, 0.0, withAlpha(kSafeColour, kFanAlpha));
+  Marker& fan = sketch.add("forecast", 0, Marker::TRIANGLE_LIST, 0.0, withAlpha(kSafeColor, kFanAlpha));
   for (std::size_t i = 1; i < sections.size(); ++i) {
     const FanSection& a = sections[i - 1];
     const FanSection& b = sections[i];
@@ -102,7 +102,7 @@ void drawStopAhead(const Course& course, const ErrorForecast& forecast, MarkerBu
     return;
   }
   const std::vector<FanSection> at = forecastFan(course, {forecast.time_to_stop_s}, {forecast.threshold_m});
-  sketch.line("stop ahead", 0, {at[0].left_enu_m, at[0].right_enu_m}, 2.0 * kThinLine_m, kLimitColour);
+  sketch.line("stop ahead", 0, {at[0].left_enu_m, at[0].right_enu_m}, 2.0 * kThinLine_m, kLimitColor);
 }
 
 /// Drawings of the present disappear by themselves if this nodelet dies.
@@ -130,8 +130,8 @@ void drawForecast(const DriveView& picture, const ErrorForecast* forecast, Marke
     drawFanSurface(fan, forecast->threshold_m, sketch);
   }
   const FanSection& horizon = fan.back();
-  sketch.line("horizon", 0, raised(circle(horizon.centre_enu_m, horizon.bound_m), kFanHeight_m), kThinLine_m,
-              boundColour(horizon.bound_m / forecast->threshold_m));
+  sketch.line("horizon", 0, raised(circle(horizon.center_enu_m, horizon.bound_m), kFanHeight_m), kThinLine_m,
+              boundColor(horizon.bound_m / forecast->threshold_m));
   drawStopAhead(course, *forecast, sketch);
 }
 

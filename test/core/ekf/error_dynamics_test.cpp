@@ -65,10 +65,10 @@ NavMatrix growth(const Situation& s, double duration_s) {
   NavMatrix result;
   for (int k = 0; k < kNavStates; ++k) {
     const auto changeFrom = [&](double sign) -> ErrorVector {
-      NavigationState neighbour = s.start;
-      subtractError(earth, unitError(k, -sign * size(k)), neighbour);
-      const ErrorVector before = errorBetween(earth, neighbour, s.start);
-      return errorBetween(earth, mechanized(s, neighbour, duration_s), mechanized(s, s.start, duration_s)) - before;
+      NavigationState neighbor = s.start;
+      subtractError(earth, unitError(k, -sign * size(k)), neighbor);
+      const ErrorVector before = errorBetween(earth, neighbor, s.start);
+      return errorBetween(earth, mechanized(s, neighbor, duration_s), mechanized(s, s.start, duration_s)) - before;
     };
     result.col(k) = (changeFrom(1.0) - changeFrom(-1.0)).head<9>() / (2.0 * size(k));
   }
@@ -115,7 +115,7 @@ constexpr Block kBlocks[] = {
     {"position by gyro bias", kPosition, kGyroBias, 1e-3, 0.0},
 };
 
-TEST(ErrorDynamics, EveryBlockOfFAgreesWithTheMechanisation) {
+TEST(ErrorDynamics, EveryBlockOfFAgreesWithTheMechanization) {
   const ErrorDynamics model = dynamics();
   for (const Situation& s : situations()) {
     const NavMatrix F = model.systemMatrix(s.start, s.f_ib_b);

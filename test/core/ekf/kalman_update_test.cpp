@@ -185,7 +185,7 @@ TEST(KalmanUpdate, TheSizeOfAnInnovationIsThatOfItsDensity) {
     ASSERT_TRUE(size);
     EXPECT_EQ(size->rows, rows);
     EXPECT_NEAR(size->log_determinant, std::log(S.determinant()), 1e-9 * std::abs(std::log(S.determinant())));
-    EXPECT_DOUBLE_EQ(size->squared, *normalisedInnovationSquared(m, P));
+    EXPECT_DOUBLE_EQ(size->squared, *normalizedInnovationSquared(m, P));
   }
 }
 
@@ -197,7 +197,7 @@ TEST(KalmanUpdate, BadInputLeavesEverythingUntouched) {
   const auto isRefused = [&](auto&& change) {
     Measurement bad = good;
     change(bad);
-    return !kalmanUpdate(bad, P) && !normalisedInnovationSquared(bad, P) && !innovationSize(bad, P) && P == before;
+    return !kalmanUpdate(bad, P) && !normalizedInnovationSquared(bad, P) && !innovationSize(bad, P) && P == before;
   };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(isRefused([&](Measurement& m) { m.residual(1) = nan; }));
@@ -214,7 +214,7 @@ TEST(KalmanUpdate, BadInputLeavesEverythingUntouched) {
   EXPECT_TRUE(not_positive == broken);
 }
 
-TEST(KalmanUpdate, NormalisedInnovationIsThatOfTheDenseFormula) {
+TEST(KalmanUpdate, NormalizedInnovationIsThatOfTheDenseFormula) {
   sim::RandomStream random(5, "update");
   const ErrorCovariance P = randomCovariance(random);
   for (int rows = 1; rows <= kMaxMeasurementRows; ++rows) {
@@ -223,7 +223,7 @@ TEST(KalmanUpdate, NormalisedInnovationIsThatOfTheDenseFormula) {
     const Eigen::MatrixXd R = Eigen::VectorXd(m.variance).asDiagonal();
     const Eigen::VectorXd r = m.residual;
     const double expected = r.dot((H * P * H.transpose() + R).inverse() * r);
-    EXPECT_NEAR(normalisedInnovationSquared(m, P).value(), expected, 1e-10 * expected);
+    EXPECT_NEAR(normalizedInnovationSquared(m, P).value(), expected, 1e-10 * expected);
   }
 }
 

@@ -280,7 +280,7 @@ SlipSamples secondWindow() {
   return samples;
 }
 
-TEST(SlipModel, AFailingOptimiserKeepsTheLastGoodHyperparameters) {
+TEST(SlipModel, AFailingOptimizerKeepsTheLastGoodHyperparameters) {
   auto process = std::make_unique<FailingProcess>();
   FailingProcess& control = *process;
   GaussianProcessSlipModel model(parametersOf("paper"), std::move(process));
@@ -304,7 +304,7 @@ TEST(SlipModel, UnsuitablePreviousHyperparametersGiveWayToAColdFit) {
   EXPECT_EQ(model.fit(secondWindow()).status, SlipFitStatus::kConverged);
 }
 
-TEST(SlipModel, AFailingOptimiserWithoutAPastTakesThePriorsMeans) {
+TEST(SlipModel, AFailingOptimizerWithoutAPastTakesThePriorsMeans) {
   auto process = std::make_unique<FailingProcess>();
   process->likelihood_fails = true;
   GaussianProcessSlipModel model(parametersOf("paper"), std::move(process));

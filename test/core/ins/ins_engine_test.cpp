@@ -55,7 +55,7 @@ InsEngine filled(const std::vector<ImuSample>& imu) {
   return engine;
 }
 
-TEST(InsEngine, MechanisesEachIntervalOnce) {
+TEST(InsEngine, MechanizesEachIntervalOnce) {
   const std::vector<ImuSample> imu = samples(20);
   InsEngine engine = filled(imu);
   const std::vector<InsStep> steps = drain(engine);

@@ -110,7 +110,7 @@ TEST(Initializer, WithoutRestItLevelsOnTheMove) {
   EXPECT_LT(errorOf(start).segment<3>(kPosition).norm(), 0.3);
 }
 
-TEST(Initializer, GivenPoseIsTakenAndLevelled) {
+TEST(Initializer, GivenPoseIsTakenAndLeveled) {
   Config config = startConfig(4);
   config.initialization.source = "given";
   config.initialization.heading_deg = 123.0;
@@ -142,7 +142,7 @@ TEST(Initializer, GivenPoseIsTakenAndLevelled) {
 TEST(Initializer, RestIsSeenAlsoWhenWheelsAreSlow) {
   Config config;
   config.initialization.source = "given";
-  config.initialization.levelling_window_s = 5.0;
+  config.initialization.leveling_window_s = 5.0;
   const auto isAtRest = [&config](int imu_per_wheels, double rolling_s) {
     const NavigationSetup setup = config.navigation();
     Initializer initializer(Planet::byName("earth"), setup.initialization, setup.imu_input, setup.filter);
@@ -186,7 +186,7 @@ struct CommandedStart {
   double heading_error_rad = 0.0;
 };
 
-CommandedStart initialiseUnder(const sim::Command& command) {
+CommandedStart initializeUnder(const sim::Command& command) {
   Config config = startConfig(6);
   config.simulator.drive.initial_straight_m = 0.0;
   const Planet planet = Planet::byName(config.planet);
@@ -231,7 +231,7 @@ TEST(Initializer, ConfiguredBiasesAreTaken) {
 
 /// The drive may as well go backwards: the heading is that of the rover, not of its course.
 TEST(Initializer, ABackwardDriveGivesTheSameHeading) {
-  const CommandedStart start = initialiseUnder({-0.8, 0.0});
+  const CommandedStart start = initializeUnder({-0.8, 0.0});
   ASSERT_TRUE(start.initial);
   EXPECT_NEAR(start.heading_error_rad, 0.0, degToRad(5.0));
   EXPECT_LT((start.initial->nav.q_b_to_n.conjugate() * start.initial->nav.v_eb_n).x(), -0.5);
@@ -240,7 +240,7 @@ TEST(Initializer, ABackwardDriveGivesTheSameHeading) {
 /// Nor need it be straight: wheels and gyro follow the bend.
 TEST(Initializer, ACurvedDriveGivesTheHeading) {
   for (const double yaw_rate_radps : {0.06, -0.06}) {
-    const CommandedStart start = initialiseUnder({0.8, yaw_rate_radps});
+    const CommandedStart start = initializeUnder({0.8, yaw_rate_radps});
     ASSERT_TRUE(start.initial);
     EXPECT_NEAR(start.heading_error_rad, 0.0, degToRad(5.0)) << yaw_rate_radps;
   }

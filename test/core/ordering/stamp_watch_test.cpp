@@ -27,7 +27,7 @@ TEST(StampWatch, NamesClocksThatAreApart) {
   EXPECT_EQ(said(0.8, 0.8), "stamps of imu/data and joint_states are 0.8 s apart");
 }
 
-TEST(StampWatch, RecognisesLeapSeconds) {
+TEST(StampWatch, RecognizesLeapSeconds) {
   EXPECT_EQ(said(18.0, 18.0), "stamps of imu/data and joint_states are 18.0 s apart: is one of them GPS time?");
 }
 

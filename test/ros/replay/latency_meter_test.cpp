@@ -44,7 +44,7 @@ TEST(LatencyMeter, CountsFromTheImuSampleOfTheEstimate) {
   EXPECT_EQ(report(meter), (std::vector<std::string>{"25.00", "29.90", "30.00"}));
 }
 
-TEST(LatencyMeter, WhatIsMechanisedAgainIsAsOldAsBefore) {
+TEST(LatencyMeter, WhatIsMechanizedAgainIsAsOldAsBefore) {
   LatencyMeter meter;
   meter.expect(1, 10.0);
   meter.expect(1, 10.5);

@@ -71,17 +71,17 @@ TEST_F(OverlayMessagesTest, EveryMarkerIsOfItsFrameAndValid) {
   }
 }
 
-TEST_F(OverlayMessagesTest, TheTrackHasTheColourOfItsSlip) {
+TEST_F(OverlayMessagesTest, TheTrackHasTheColorOfItsSlip) {
   const auto markers = all();
   const Marker* slip = find(markers, "slip");
   ASSERT_NE(slip, nullptr);
   EXPECT_EQ(slip->points.size(), picture_.track().points().size());
-  const Colour expected = slipColour(0.15, params_.slip_full_scale);
+  const Color expected = slipColor(0.15, params_.slip_full_scale);
   EXPECT_FLOAT_EQ(slip->colors.back().r, expected.red);
   EXPECT_FLOAT_EQ(slip->colors.back().b, expected.blue);
 }
 
-TEST_F(OverlayMessagesTest, TheFanTurnsColourAsItNearsTheThreshold) {
+TEST_F(OverlayMessagesTest, TheFanTurnsColorAsItNearsTheThreshold) {
   forecast(2.0);
   const auto markers = all();
   const Marker* fan = find(markers, "forecast");
@@ -89,9 +89,9 @@ TEST_F(OverlayMessagesTest, TheFanTurnsColourAsItNearsTheThreshold) {
   EXPECT_EQ(fan->points.size(), 12U);
   const auto furthest =
       std::max_element(fan->points.begin(), fan->points.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-  const auto& colour = fan->colors[static_cast<std::size_t>(furthest - fan->points.begin())];
-  EXPECT_FLOAT_EQ(colour.r, kLimitColour.red);
-  EXPECT_FLOAT_EQ(colour.g, kLimitColour.green);
+  const auto& color = fan->colors[static_cast<std::size_t>(furthest - fan->points.begin())];
+  EXPECT_FLOAT_EQ(color.r, kLimitColor.red);
+  EXPECT_FLOAT_EQ(color.g, kLimitColor.green);
   EXPECT_NEAR(furthest->x, 40.0, 0.5);
   EXPECT_NEAR(std::abs(furthest->y), 2.0, 0.01);
   ASSERT_NE(find(markers, "stop ahead"), nullptr);

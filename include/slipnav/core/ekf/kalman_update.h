@@ -27,7 +27,7 @@ struct Measurement {
 
 /// rᵀ (H P Hᵀ + R)⁻¹ r, chi-square distributed with as many degrees of freedom as rows when the filter is consistent.
 /// Nothing if the residual is not finite or the innovation covariance not positive definite.
-std::optional<double> normalisedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P);
+std::optional<double> normalizedInnovationSquared(const Measurement& measurement, const ErrorCovariance& P);
 
 /// An innovation r relative to its own covariance S = H P Hᵀ + R.
 struct InnovationSize {
@@ -36,7 +36,7 @@ struct InnovationSize {
   double log_determinant = 0.0;  ///< ln |S|, in the units of the measurement squared
 };
 
-/// Nothing where normalisedInnovationSquared() returns nothing.
+/// Nothing where normalizedInnovationSquared() returns nothing.
 std::optional<InnovationSize> innovationSize(const Measurement& measurement, const ErrorCovariance& P);
 
 using KalmanGain = Eigen::Matrix<double, kErrorStates, Eigen::Dynamic, 0, kErrorStates, kMaxMeasurementRows>;

@@ -99,7 +99,7 @@ class Initializer {
   std::optional<DriveEnd> newestKnownFix() const;
   std::optional<DriveFit> fitOfDrive(Nanoseconds begin, Nanoseconds end, bool at_rest) const;
   InitialState beginOfDrive(Nanoseconds begin, const DriveFit& fit, bool at_rest) const;
-  InitialState levelled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const;
+  InitialState leveled(Nanoseconds begin, Nanoseconds end, bool at_rest, double heading_rad) const;
   void levelAtRestInto(const ImuSample& mean, double heading_rad, InitialState& initial) const;
   void levelOnTheMoveInto(Nanoseconds begin, Nanoseconds end, double heading_rad, InitialState& initial) const;
   InitialState runFilter(const InitialState& start, Nanoseconds until) const;

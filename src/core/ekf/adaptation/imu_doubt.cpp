@@ -24,12 +24,12 @@ ImuDoubt::ImuDoubt(double factor_std) : learns_(factor_std > 1.0), theta_(2.0 * 
   before_.fill(Vector3::Zero());
 }
 
-void ImuDoubt::compare(ConstraintAxis axis, double normalised, const Vector3& direction_n) {
+void ImuDoubt::compare(ConstraintAxis axis, double normalized, const Vector3& direction_n) {
   if (!learns_) {
     return;
   }
   Vector3& before = before_[axis];
-  const Vector3 now = normalised * direction_n;
+  const Vector3 now = normalized * direction_n;
   const double product = std::clamp(now.dot(before), -kLargestProduct, kLargestProduct);
   before = now;
   theta_ = std::clamp(theta_ + kGain * (product - kTowardsDataSheet), 0.0, kLargestTheta);

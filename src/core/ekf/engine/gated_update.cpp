@@ -43,7 +43,7 @@ double GatedUpdate::patience(Component component) const {
 bool GatedUpdate::passes(MeasurementSet::Block& block, Nanoseconds stamp, ErrorCovariance& P) {
   const Measurement& m = block.measurement;
   ComponentStatus& status = status_[block.component];
-  const std::optional<double> nis = normalisedInnovationSquared(m, P);
+  const std::optional<double> nis = normalizedInnovationSquared(m, P);
   if (!nis) {
     ++status.rejected;
     return false;

@@ -2,21 +2,21 @@
 
 #include <algorithm>
 
-#include "core/ins/levelling.h"
+#include "core/ins/leveling.h"
 
 namespace slipnav {
 namespace {
 
 constexpr double kFactor = 2.0;  // a wheel that locks at speed leaves the vehicle at that speed, once
 constexpr double kLasting_s = 1.0;
-constexpr double kLeast_mps = 0.1;    // wheels that have hardly turned yet give no reference
-constexpr double kLevelling_s = 5.0;  // rocking over stones averages out, the approach to a slope is still included
-constexpr double kShortest_s = 0.1;   // for leveling
+constexpr double kLeast_mps = 0.1;   // wheels that have hardly turned yet give no reference
+constexpr double kLeveling_s = 5.0;  // rocking over stones averages out, the approach to a slope is still included
+constexpr double kShortest_s = 0.1;  // for leveling
 
 }  // namespace
 
 void RunawayWatch::addImu(const Vector3& f_ib_b, double duration_s) {
-  averaged_s_ = std::min(averaged_s_ + duration_s, kLevelling_s);
+  averaged_s_ = std::min(averaged_s_ + duration_s, kLeveling_s);
   f_mean_b_ += duration_s / std::max(averaged_s_, duration_s) * (f_ib_b - f_mean_b_);
 }
 

@@ -102,7 +102,7 @@ TEST(HyperparameterFit, LandsInTheCorrespondingOptimumForEveryOriginOfTime) {
   }
 }
 
-TEST(HyperparameterFit, APlainOptimiserFromOnesMissesIt) {
+TEST(HyperparameterFit, APlainOptimizerFromOnesMissesIt) {
   for (const GpOptimum& optimum : readGpOptima()) {
     PaperFit paper(optimum.origin_s);
     EXPECT_GT(std::abs(-plainFitFromOnes(paper.process) - optimum.log_marginal_likelihood), 0.3) << optimum.origin_s;

@@ -26,7 +26,7 @@ class ImuDoubt {
   explicit ImuDoubt(double factor_std);
 
   /// The innovation is r/√S before the update. @param direction_n unit vector along which the velocity was measured
-  void compare(ConstraintAxis axis, double normalised, const Vector3& direction_n);
+  void compare(ConstraintAxis axis, double normalized, const Vector3& direction_n);
 
   /// Density beyond the known one, relative to it; 0 or more.
   double excess() const;

@@ -1,4 +1,4 @@
-#include "core/ins/levelling.h"
+#include "core/ins/leveling.h"
 
 #include <cmath>
 #include <stdexcept>

@@ -1,4 +1,4 @@
-#include "core/ins/levelling.h"
+#include "core/ins/leveling.h"
 
 #include <gtest/gtest.h>
 
@@ -10,19 +10,19 @@
 namespace slipnav::test {
 namespace {
 
-TEST(Levelling, FindsRollAndPitchAtRest) {
+TEST(Leveling, FindsRollAndPitchAtRest) {
   for (const double roll : {-0.4, 0.0, 0.3}) {
     for (const double pitch : {-0.5, 0.0, 0.2}) {
       const Quaternion q = q_b_to_n_fromEuler(roll, pitch, 1.0);
-      const Vector2 levelled = levelAtRest(q.conjugate() * Vector3(0.0, 0.0, -9.8));
-      EXPECT_NEAR(levelled.x(), roll, 1e-12);
-      EXPECT_NEAR(levelled.y(), pitch, 1e-12);
+      const Vector2 leveled = levelAtRest(q.conjugate() * Vector3(0.0, 0.0, -9.8));
+      EXPECT_NEAR(leveled.x(), roll, 1e-12);
+      EXPECT_NEAR(leveled.y(), pitch, 1e-12);
     }
   }
 }
 
 /// A drive that speeds up, turns and rocks: what is left is gravity's reaction at its start.
-TEST(Levelling, FindsGravityOnTheMove) {
+TEST(Leveling, FindsGravityOnTheMove) {
   const Planet earth = Planet::byName("earth");
   const double R = earth.meridianRadius(0.7);
   // along the meridian with a speed that falls from 0.75 to 0.45 m/s, rocking in roll and pitch
@@ -37,11 +37,11 @@ TEST(Levelling, FindsGravityOnTheMove) {
   }
   const NavigationState start = motion.state(0.0);
   const Vector3 reaction = reactionToGravityOnTheMove(samples, start.v_eb_n.x(), motion.state(0.02 * count).v_eb_n.x());
-  const Vector2 levelled = levelAtRest(reaction);
+  const Vector2 leveled = levelAtRest(reaction);
   const Vector3 truth = eulerFrom_q_b_to_n(start.q_b_to_n);
   // the speed is taken along the body's x axis, which rocks by 0.15 rad against the level: 0.8·0.15/10 s of 9.8 m/s²
-  EXPECT_NEAR(levelled.x(), truth.x(), 0.002);
-  EXPECT_NEAR(levelled.y(), truth.y(), 0.002);
+  EXPECT_NEAR(leveled.x(), truth.x(), 0.002);
+  EXPECT_NEAR(leveled.y(), truth.y(), 0.002);
   // the plain mean, without rotation and change of speed, is worse
   Vector3 sum = Vector3::Zero();
   for (const ImuSample& sample : samples) {
@@ -50,7 +50,7 @@ TEST(Levelling, FindsGravityOnTheMove) {
   EXPECT_GT((levelAtRest(sum) - truth.head<2>()).norm(), 0.01);
 }
 
-TEST(Levelling, OneSampleIsNotEnough) {
+TEST(Leveling, OneSampleIsNotEnough) {
   EXPECT_THROW(reactionToGravityOnTheMove({}, 0.0, 0.0), std::invalid_argument);
   EXPECT_THROW(reactionToGravityOnTheMove({ImuSample{}}, 0.0, 0.0), std::invalid_argument);
 }
