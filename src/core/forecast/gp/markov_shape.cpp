@@ -11,7 +11,7 @@ namespace {
 // more states.
 constexpr int kRbfOrder = 6;
 
-// P with F P + P Fᵀ + L Lᵀ = 0, scaled to hᵀ P h = 1.
+// P with F P + P Fᵀ + L Lᵀ = 0, scaled to hᵀ P h = 1; before that its sign does not matter.
 Eigen::MatrixXd normalizedStationaryCovariance(const Eigen::MatrixXd& drift, const Eigen::VectorXd& input,
                                                const Eigen::VectorXd& output) {
   const Eigen::Index n = drift.rows();
@@ -24,7 +24,7 @@ Eigen::MatrixXd normalizedStationaryCovariance(const Eigen::MatrixXd& drift, con
   }
   const Eigen::MatrixXd diffusion = input * input.transpose();
   const Eigen::VectorXd stacked =
-      lyapunov.partialPivLu().solve(-Eigen::Map<const Eigen::VectorXd>(diffusion.data(), n * n));
+      lyapunov.partialPivLu().solve(Eigen::Map<const Eigen::VectorXd>(diffusion.data(), n * n));
   const Eigen::MatrixXd covariance = Eigen::Map<const Eigen::MatrixXd>(stacked.data(), n, n);
   const Eigen::MatrixXd symmetric = 0.5 * (covariance + covariance.transpose());
   return symmetric / output.dot(symmetric * output);
