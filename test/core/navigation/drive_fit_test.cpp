@@ -91,6 +91,14 @@ TEST_F(DriveFitTest, FindsHeadingStartAndScale) {
   EXPECT_NEAR(fit->distance_m, track().reach(), 0.1);
 }
 
+TEST_F(DriveFitTest, TwoFixesFarApartGiveAHeading) {
+  const std::vector<PositionFix> all = fixes(0.0, kNone);
+  const std::optional<DriveFit> fit = fitDrive(planet_, {all.front(), all.back()}, track(), kReference,
+                                               fromSeconds(kBegin_s), fromSeconds(kBegin_s + kEnd_s));
+  ASSERT_TRUE(fit);
+  EXPECT_NEAR(fit->heading_rad, kHeading_rad, 0.01);
+}
+
 TEST_F(DriveFitTest, AVehicleOfWhichNoWheelHasBeenHeardHasNoWay) {
   StartRecording only_imu{StationaryParams{}, ImuFloor{}, 9.8, 5.0, 600.0};
   for (const ImuSample& sample : recording_.imu()) {

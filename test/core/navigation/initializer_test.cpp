@@ -178,6 +178,9 @@ TEST(Initializer, MotionStartsWhileDriving) {
   const Vector3 truth = eulerFrom_q_b_to_n(start.truth.q_b_to_n);
   EXPECT_LT((euler - truth).head<2>().norm(), degToRad(1.5));
   EXPECT_NEAR(euler.z(), degToRad(config.initialization.heading_deg), 1e-9);
+  const ErrorVector variance = start.initial->P.diagonal();
+  EXPECT_GE(std::sqrt(variance(kAttitude)), degToRad(config.initialization.moving_level_std_deg));
+  EXPECT_NEAR(std::sqrt(variance(kVelocity)), config.initialization.moving_speed_std_mps, 1e-9);
 }
 
 /// A start that is driven by a constant command after 12 s of rest.

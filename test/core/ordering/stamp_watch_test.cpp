@@ -34,6 +34,7 @@ TEST(StampWatch, RecognizesLeapSeconds) {
 TEST(StampWatch, MessagesMayBeOnTheirWay) {
   EXPECT_EQ(said(0.0, -0.4), "");
   EXPECT_EQ(said(-0.2, -2.0), "");
+  EXPECT_EQ(said(-0.8, -2.0), "") << "late, but not evenly";
 }
 
 TEST(StampWatch, StampsThatWereNeverSetAreAnotherMatter) {

@@ -27,6 +27,13 @@ TEST_F(Obedience, ARoverThatDrivesOnIsNamedWithinTwoSeconds) {
   EXPECT_FALSE(watch_.isIgnored()) << "it stands, or nearly so";
 }
 
+TEST_F(Obedience, OneThatHasFollowedInBetweenIsGivenTimeAgain) {
+  during(1.5, 0.0, 0.8);
+  during(0.1, 0.8, 0.8);
+  during(1.5, 0.0, 0.8);
+  EXPECT_FALSE(watch_.isIgnored());
+}
+
 TEST_F(Obedience, InReverseAsWell) {
   during(2.0, 0.0, -0.8);
   EXPECT_TRUE(watch_.isIgnored());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "supervisor_rig.h"
 
 namespace slipnav::test {
@@ -59,9 +61,15 @@ TEST(StopSupervisor, OneThatBecomesActiveStopsTheRover) {
 
 /// In every state: what was observed and forecast before is of another time.
 TEST(StopSupervisor, AfterTheClockHasGoneBackItIsLikeANewOne) {
-  for (const Situation& situation : situations()) {
+  std::vector<Situation> all = situations();
+  all.push_back({"having given a stop up", kD, [](Rig& rig) {
+                   situations()[3].reach(rig);
+                   rig.during(5.0, [&rig] { rig.wheelsStandOnly(); });
+                 }});
+  for (const Situation& situation : all) {
     Rig rig("advise");
     situation.reach(rig);
+    ASSERT_EQ(rig.state(), situation.state) << situation.name;
     rig.stamp -= fromSeconds(500.0);
     Rig fresh("advise");
     fresh.stamp = rig.stamp;

@@ -129,6 +129,36 @@ TEST(FilterEngine, ConstraintsTellAsMuchHoweverOftenTheyAreUsed) {
   EXPECT_NEAR(often.z() / seldom.z(), 1.0, 0.25);
 }
 
+/// Only slip that was found unexpectedly is held.
+TEST(FilterEngine, PersistentSlipOfTheStartIsForgottenOnTheWay) {
+  constexpr double kSlip = 0.3;
+  Config config = driveConfig(8.0);
+  config.filter.updates = {};
+  RecordedDrive drive = recordDrive(config);
+  drive.initial.vehicle.slow_slip = kSlip;
+  drive.initial.P(kSlowSlip, kSlowSlip) = square(0.01);
+  const double left = runNavigator(config, drive.initial, drive.samples).back().estimate.vehicle.slow_slip / kSlip;
+  EXPECT_LT(left, 0.9);
+  EXPECT_GT(left, std::exp(-20.0 / config.vehicle.slow_slip_length_m));
+}
+
+/// A configuration may say that no ground changes on short ways; a wheel slips all the same.
+TEST(FilterEngine, AWheelMaySlipWhereNoFastSlipIsConfigured) {
+  Config config = driveConfig(12.0);
+  config.vehicle.fast_slip_std = 0.0;
+  RecordedDrive drive = recordDrive(config);
+  const Nanoseconds middle = drive.samples[drive.samples.size() / 2].stamp();
+  for (DriveSample& sample : drive.samples) {
+    sample.wheels.motion.forward_mps *= sample.stamp() > middle && sample.stamp() < middle + kSecond ? 2.0 : 1.0;
+  }
+  double largest = 0.0;
+  for (const LoggedEstimate& logged : runNavigator(config, drive.initial, drive.samples)) {
+    ASSERT_TRUE(logged.P.allFinite());
+    largest = std::max(largest, logged.estimate.vehicle.fast_slip);
+  }
+  EXPECT_GT(largest, 0.3);
+}
+
 /// At rest the gyros show their biases, and the rate of the planet.
 TEST(FilterEngine, FindsTheBiasesOfGyrosAtRest) {
   Config config = driveConfig(2.0);

@@ -161,6 +161,8 @@ TEST(UnexpectedSlip, NeedsAWay) {
   EXPECT_GT(way.slip.squared(), 0.0);
   way.slip.begin();
   EXPECT_EQ(way.slip.squared(), 0.0);
+  way.drive(0.5);
+  EXPECT_EQ(way.slip.squared(), 0.0) << "a new one";
 }
 
 constexpr const char* kAlarm = "slip unnoticed for meters: velocity and position corrected";
