@@ -184,7 +184,7 @@ class InitializerNodelet : public NodeletBase {
   }
 
   void initializeByFormerName(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    NODELET_WARN_ONCE("the service 'initialise' is now 'initialize'; the former name works in this release only");
+    NODELET_WARN_ONCE("called by its former name, which works in this release only: the service is now initialize");
     searchAgain(false, response);
   }
 

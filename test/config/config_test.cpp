@@ -59,8 +59,9 @@ TEST(Config, FormerNamesWorkAndAreNamed) {
   EXPECT_EQ(config.initialization.leveling_window_s, 7.0);
   EXPECT_EQ(config.zero_motion.max_velocity_std_mps, 0.5);
   ASSERT_EQ(config.warnings.size(), 2U);
-  EXPECT_EQ(config.warnings[0], file.path() + ":3: 'initialization.levelling_window_s' is now "
-                                              "'initialization.leveling_window_s'; the former name works in this release only");
+  EXPECT_EQ(config.warnings[0], file.path() +
+                                    ":3: 'initialization.levelling_window_s' is now "
+                                    "'initialization.leveling_window_s'; the former name works in this release only");
   EXPECT_NE(config.warnings[1].find("'zero_motion.max_velocity_std_mps'"), std::string::npos);
   EXPECT_TRUE(Config::load({}).warnings.empty());
 }
@@ -74,7 +75,8 @@ TEST(Config, TheLaterOfAFormerAndAPresentNameWins) {
 
 TEST(Config, AKeyByBothItsNamesIsRefused) {
   const TemporaryFile file("both.yaml", "initialization: {levelling_window_s: 7, leveling_window_s: 8}\n");
-  EXPECT_NE(complaint({file.path()}).find("is the former name of 'initialization.leveling_window_s'"), std::string::npos);
+  EXPECT_NE(complaint({file.path()}).find("is the former name of 'initialization.leveling_window_s'"),
+            std::string::npos);
 }
 
 TEST(Config, LaterFilesWin) {

@@ -5,6 +5,7 @@
 #include <nodelet/NodeletLoad.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Log.h>
+#include <std_srvs/Trigger.h>
 
 #include <algorithm>
 #include <string>
@@ -84,6 +85,11 @@ TEST_F(BadConfiguration, LeavesTheManagerAndGoodNodeletsAlone) {
   expectOneError("/truth/initializer stays idle: initialization.source: truth is for the evaluator only");
   load("/good/initializer", "slipnav/Initializer");
   EXPECT_TRUE(isPublished("/good/initial_state"));
+  for (const char* name : {"/good/initializer/initialize", "/good/initializer/initialise"}) {  // now and formerly
+    std_srvs::Trigger search;
+    EXPECT_TRUE(ros::service::call(name, search)) << name;
+    EXPECT_NE(search.response.success, 0) << name;
+  }
   nodelet::NodeletList list;
   EXPECT_TRUE(ros::service::call("/manager/list", list));
   EXPECT_EQ(errors_.size(), 1U);
