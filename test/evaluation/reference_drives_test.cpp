@@ -53,6 +53,12 @@ const std::vector<ReferenceDrive>& referenceDrives() {
         "simulator.drive.distance_m=30"}},
       {"skid_steer", "skid_steer", "mems", "none", {"simulator.drive.distance_m=30"}},
       {"crawl", "slow", "tactical", "autonomous", {"simulator.drive.distance_m=1", "forecast.threshold_m=0.05"}},
+      {"paper_method",
+       "rough",
+       "tactical",
+       "autonomous",
+       {"forecast.schedule=paper", "forecast.bound=absolute", "stop.forecast_timeout_s=60", "forecast.threshold_m=1",
+        "simulator.drive.distance_m=40"}},
       {"dense_process",
        "soft_patches",
        "tactical",
@@ -78,7 +84,7 @@ void addFilter(const std::vector<FilterRow>& rows, Figures& figures) {
     figures["filter.gyro_bias_radps"] += row.gyro_bias_flu_radps.norm();
     figures["filter.gyro_sigma_radps"] += row.gyro_sigma_radps.norm();
     for (std::size_t kind = 0; kind < row.nis.size(); ++kind) {
-      figures["filter.nis." + std::to_string(kind)] += row.nis[kind].value_or(0.0);
+      figures[std::string("filter.nis.") + componentName(static_cast<Component>(kind))] += row.nis[kind].value_or(0.0);
     }
   }
 }
