@@ -20,7 +20,7 @@
 namespace slipnav::test {
 namespace {
 
-/// Compilers differ in the last digits, and an hour of driving does not make more of it than this.
+/// Relative. Compilers differ in the last digits.
 constexpr double kTolerance = 1e-6;
 constexpr int kDigits = 10;
 
