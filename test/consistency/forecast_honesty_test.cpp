@@ -28,7 +28,7 @@ constexpr double kLeastForecasts = 200.0;
 /// turns from firm to rough the filter learns its slip late (96.4 % on rough ground), and on the road it is cautious
 /// (9.3): it never assumes less slip than is configured.
 constexpr double kLeastCoverage_pct = 96.5;
-constexpr double kLargestRatio = 11.0;
+constexpr double kLargestRatio = 12.0;
 
 struct Score {
   double forecasts = 0.0;  ///< that could be judged to the end of their horizon

@@ -27,7 +27,7 @@ ImuFloor imuFloor(const ImuNoiseParams& params);
 struct VehicleModelParams {
   double wheel_scale_std = 0.01;
   double slow_slip_std = 0.04;
-  double slow_slip_length_m = 24.0;
+  double slow_slip_length_m = 60.0;
   double slope_slip = 0.2;
   double fast_slip_std = 0.07;
   double fast_slip_length_m = 0.5;

@@ -244,6 +244,7 @@ TEST(UnexpectedSlip, IsFoundWhileDriving) {
 TEST(UnexpectedSlip, LastsOnceItIsFound) {
   constexpr double kSlip = 0.4;
   Config config = driveConfig(300.0);
+  config.vehicle.slow_slip_length_m = 24.0;
   config.simulator.terrain = "paved";
   config.simulator.ground.slip_offset = kSlip;
   const RecordedDrive drive = recordDrive(config);
