@@ -72,6 +72,8 @@ def parse_arguments():
                         help="drives on each ground for the stop intervals (default %(default)s)")
     parser.add_argument("--interval-threshold", type=positive_length, default=3.0, metavar="M",
                         help="error bound for the stop intervals (default %(default)s)")
+    parser.add_argument("--clock-threshold", type=positive_length, default=Options.clock_threshold_m, metavar="M",
+                        help="error bound for the comparison with a clock (default %(default)s)")
     engine.add_options(parser, positive_count)
     parser.add_argument("--only", type=section_names, default=list(SECTIONS), metavar="NAME,...",
                         help="sections to make: " + ", ".join(SECTIONS) + " (default: all)")
@@ -102,7 +104,7 @@ def all_outcomes(arguments, chosen, options):
 
 def make_tables(arguments):
     options = Options(arguments.seeds, arguments.curve_seeds or arguments.seeds, arguments.interval_tests,
-                      arguments.interval_threshold)
+                      arguments.interval_threshold, arguments.clock_threshold)
     chosen = {name: SECTIONS[name] for name in arguments.only}
     os.makedirs(arguments.out, exist_ok=True)
     outcomes = all_outcomes(arguments, chosen, options)

@@ -8,11 +8,10 @@ from slipnav_campaign.task import Failure
 
 from . import paper
 from .drive import Drive
-from .section import Section, Table, number
+from .section import Options, Section, Table, number
 from .statistics import median
 
 DISTANCE_M = 650.0
-THRESHOLD_M = 3.0
 NEVER = "none"
 
 
@@ -38,7 +37,7 @@ GROUNDS = (
 
 
 def autonomous_drives(ground, options):
-    return [Drive(ground.terrain, DISTANCE_M, seed, paper.AUTONOMOUS, THRESHOLD_M, ground.settings)
+    return [Drive(ground.terrain, DISTANCE_M, seed, paper.AUTONOMOUS, options.clock_threshold_m, ground.settings)
             for seed in range(1, options.seeds + 1)]
 
 
@@ -69,14 +68,14 @@ def pairs_of(outcomes, ground, options):
     return pairs
 
 
-def figures(outcomes):
+def figures(outcomes, threshold_m=Options.clock_threshold_m):
     growths = np.array([stretch.growth_m for outcome in outcomes for stretch in outcome.stretches])
     known = len(growths) > 0
     return {
         "stops": median([sum(stretch.ended_by_stop for stretch in outcome.stretches) for outcome in outcomes]),
         "growth_rms_m": float(np.sqrt(np.mean(growths**2))) if known else None,
         "worst_growth_m": float(growths.max()) if known else None,
-        "beyond": int(np.sum(growths > THRESHOLD_M)), "stretches": len(growths),
+        "beyond": int(np.sum(growths > threshold_m)), "stretches": len(growths),
         "enu_error_pct": median([outcome.metrics["enu_error_pct"] for outcome in outcomes]),
     }
 
@@ -102,7 +101,7 @@ class Clock:
         rows, data = [], {}
         for ground in GROUNDS:
             pairs = pairs_of(outcomes, ground, options)
-            both = [figures([pair[i] for pair in pairs]) for i in (0, 1)]
+            both = [figures([pair[i] for pair in pairs], options.clock_threshold_m) for i in (0, 1)]
             data[ground.name] = dict(zip(("autonomous", "clock"), both), drives=len(pairs))
             for name, found in zip(("autonomous", "clock"), both):
                 rows.append([ground.name if name == "autonomous" else "", name, str(len(pairs)),
@@ -113,7 +112,7 @@ class Clock:
                         + [number(ratio(both[0][key], both[1][key]), 2) for key in ("growth_rms_m", "worst_growth_m")]
                         + ["", number(ratio(both[0]["enu_error_pct"], both[1]["enu_error_pct"]), 2)])
         heads = ["ground", "stops by", "drives", "stops", "growth rms m", "worst m", "grown beyond ε", "ENU %"]
-        notes = [f"ε = {THRESHOLD_M:g} m. The periodic drive stops as often and as long as the autonomous drive with "
+        notes = [f"ε = {options.clock_threshold_m:g} m. The periodic drive stops as often and as long as the autonomous drive with "
                  "that seed, after equal times of driving. Growth: of the horizontal error in a stretch between two "
                  "stops, its largest; ENU: median over the drives."]
         return Section(f"Against as many periodic stops, {DISTANCE_M:.0f} m", [Table(heads, rows)], notes, data=data)

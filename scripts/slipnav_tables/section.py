@@ -14,6 +14,7 @@ class Options:
     curve_seeds: int
     interval_tests: int
     interval_threshold_m: float
+    clock_threshold_m: float = 3.0
 
 
 @dataclass

@@ -204,6 +204,11 @@ class ClockTest(unittest.TestCase):
         self.assertAlmostEqual(found["growth_rms_m"], np.sqrt(12.5))
         self.assertEqual((found["worst_growth_m"], found["beyond"], found["stretches"]), (4.0, 1, 2))
         self.assertAlmostEqual(found["enu_error_pct"], 0.3)
+        self.assertEqual(clock.figures([outcome(stretches=stretches)], 2.5)["beyond"], 2)
+
+    def test_threshold_is_that_of_the_options(self):
+        options = Options(1, 1, 1, 3.0, clock_threshold_m=1.5)
+        self.assertEqual({each.threshold_m for each in clock.Clock.drives(options)}, {1.5})
 
 
 class SkillTest(unittest.TestCase):
