@@ -177,13 +177,14 @@ void checkEncoders(const JointRecord& record, const std::vector<WheelJoint>& whe
 }
 
 void checkDirection(const WheelTrack& wheels, const Mounting& mounting, Findings& findings) {
-  if (hasSign(wheels) || mounting.batches_backward < kLeastBatches || mounting.batches_forward < kLeastBatches) {
+  const std::size_t against = mounting.batches_certainly_backward;
+  const std::size_t along = mounting.batches_certainly_forward;
+  if (hasSign(wheels) || against < kLeastBatches || along < kLeastBatches) {
     return;
   }
   findings.push_back({Severity::kUnusable, wheels.topic,
-                      "wheels and IMU disagree on the direction in " + counted(mounting.batches_backward, "piece") +
-                          " of the drive and agree in " + std::to_string(mounting.batches_forward) +
-                          ", and the wheel speed has no sign",
+                      "wheels and IMU disagree on the direction in " + counted(against, "piece") +
+                          " of the drive and agree in " + std::to_string(along) + ", and the wheel speed has no sign",
                       "publish the speed with its sign: negative when the vehicle reverses"});
 }
 

@@ -19,8 +19,10 @@ struct Mounting {
   /// Lateral force over speed times heading rate, divided by force_gain; 1 if the gyros are in rad/s.
   double centripetal_ratio = 0.0;
   double centripetal_std = 0.0;
-  std::size_t batches_forward = 0;   ///< in which force and wheels clearly agree
-  std::size_t batches_backward = 0;  ///< in which they clearly contradict
+  std::size_t batches_forward = 0;             ///< in which force and wheels clearly agree
+  std::size_t batches_backward = 0;            ///< in which they clearly contradict
+  std::size_t batches_certainly_forward = 0;   ///< in which hardly anything but the motion shows in the force
+  std::size_t batches_certainly_backward = 0;  ///< likewise, with the opposite sign
 
   bool has_turn = false;
   /// The wheels' turn over the heading rate by the gyros (about up, positive left): the effective track if the turn

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 
 #include "inspection/configuration_proposal.h"
 #include "inspection/inspection.h"
@@ -200,6 +202,46 @@ TEST(InspectionOfRecording, NamesBadPositions) {
                   }
                 }),
                 "no time in common", Severity::kUnusable);
+}
+
+/// Every fourth stretch between two stops is driven in reverse, with wheels that report how fast they turn, not which
+/// way.
+TEST(InspectionOfRecording, NamesWheelsWithoutSign) {
+  const Inspection inspection = inspectSpoilt([](Recording& recording) {
+    const Nanoseconds begin = recording.begin;
+    for (RawImuSample& sample : recording.imus[0].samples) {
+      if (std::fmod(toSeconds(sample.time.stamp - begin), 60.0) > 45.0) {
+        sample.specific_force.head<2>() *= -1.0;
+      }
+    }
+  });
+  expectFinding(inspection, "the wheel speed has no sign", Severity::kUnusable);
+}
+
+/// What the sensor of a slow rover on rough ground feels is mostly tilt, and in some pieces it looks like driving
+/// backwards.
+TEST(InspectionOfRecording, TakesNoTiltForReverse) {
+  test::SyntheticDrive drive;
+  drive.duration_s = 1800.0;
+  Recording recording = test::syntheticRecording(drive);
+  std::mt19937 generator(1);
+  std::normal_distribution<double> normal(0.0, 0.02);
+  Vector3 tilt = Vector3::Zero();
+  for (RawImuSample& sample : recording.imus[0].samples) {
+    tilt = 0.98 * tilt + Vector3(normal(generator), normal(generator), 0.0);
+    sample.specific_force.head<2>() *= 0.1;
+    sample.specific_force += tilt;
+    sample.angular_rate *= 0.1;
+  }
+  for (RawJointSample& sample : recording.joints[0].samples) {
+    for (std::size_t wheel = 0; wheel < 4; ++wheel) {
+      sample.velocity_radps[wheel] *= 0.1;
+      sample.position_rad[wheel] *= 0.1;
+    }
+  }
+  const Inspection inspection = inspect(recording, {});
+  EXPECT_GE(inspection.mounting.batches_backward, 2U) << "the case is no test";
+  EXPECT_EQ(find(inspection, "has no sign"), nullptr) << toText(inspection.findings);
 }
 
 TEST(InspectionOfRecording, HoldsAConfigurationAgainstTheData) {

@@ -21,6 +21,9 @@ constexpr double kLeastUpward = 0.5;
 /// °/s for rad/s is a factor of 57; slip, scrub and noise amount to a few.
 constexpr double kUnitFactor = 15.0;
 constexpr double kOppositeTurn = -0.3;
+/// Of two turns, not of noise: straight ahead on rough ground the wheels turn by 0.5 rad in a few seconds, back and
+/// forth.
+constexpr double kSureTurn = 0.7;
 constexpr double kLeastTurn_rad = 0.5;
 constexpr double kLeastTilt_rad = 0.1;
 constexpr double kLeastWindows = 5.0;
@@ -147,6 +150,7 @@ void InputCheck::push(const WheelMotion& wheels) {
   const double turn_rad = dt_s * wheels.motion.yaw_rate_radps;
   wheels_turned_rad_ += std::abs(turn_rad);
   wheels_squared_ += turn_rad * turn_rad;
+  gyro_squared_ += gyro_turn_rad * gyro_turn_rad;
   gyro_by_wheels_ += turn_rad * gyro_turn_rad;
   judgeTurns();
   chooseComplaint();
@@ -157,14 +161,17 @@ void InputCheck::judgeTurns() {
     return;
   }
   const double ratio = gyro_by_wheels_ / wheels_squared_;
+  const double correlation = gyro_by_wheels_ / std::sqrt(std::max(gyro_squared_ * wheels_squared_, 1e-30));
   if (ratio > kUnitFactor) {
     rate_complaint_ = complaintOfRateUnit("more than 15 times as far as the wheels");
-  } else if (ratio < kOppositeTurn) {
-    rate_complaint_ =
+  } else if (ratio < kOppositeTurn && correlation < -kSureTurn) {
+    turn_complaint_ =
         "gyros and wheels turn in opposite directions: imu.mount is upside down, the gyro's axes are not "
         "those of the accelerometer, or left and right wheels are swapped";
+  } else if (ratio > -kOppositeTurn && correlation > kSureTurn) {
+    turn_complaint_.clear();
   }
-  wheels_turned_rad_ = wheels_squared_ = gyro_by_wheels_ = 0.0;
+  wheels_turned_rad_ = wheels_squared_ = gyro_squared_ = gyro_by_wheels_ = 0.0;
 }
 
 void InputCheck::chooseComplaint() {
@@ -172,6 +179,8 @@ void InputCheck::chooseComplaint() {
     complaint_ = force_complaint_;
   } else if (!rate_complaint_.empty()) {
     complaint_ = rate_complaint_;
+  } else if (!turn_complaint_.empty()) {
+    complaint_ = turn_complaint_;
   } else if (direction_.contradicts()) {
     complaint_ = complaintOfDirection(direction_.hasSign());
   } else {

@@ -131,6 +131,51 @@ TEST(InputCheck, namesGyrosThatTurnTheOtherWay) {
   EXPECT_EQ(drive.complaint(), "") << "sliding sideways on a slope";
 }
 
+/// A straight drive whose wheels climb stones one by one, then curves.
+struct RoughDrive {
+  InputCheck check{kGravity_mps2, 0.0005};
+  double t_s = 0.0;
+
+  /// One wheel sample with this turn by the wheels, and by the gyros.
+  void turn(double wheels_rad, double gyro_rad) {
+    for (int i = 0; i < 10; ++i) {
+      t_s += 0.01;
+      ImuSample imu;
+      imu.stamp = fromSeconds(t_s);
+      imu.f_ib_b = {0.0, 0.0, -kGravity_mps2};
+      imu.omega_ib_b = {0.0, 0.0, gyro_rad / 0.1};
+      check.push(imu);
+    }
+    WheelMotion wheels;
+    wheels.stamp = fromSeconds(t_s);
+    wheels.motion = {1.0, wheels_rad / 0.1, true};
+    wheels.largest_speed_mps = 1.0;
+    check.push(wheels);
+  }
+};
+
+/// The body turns a little against the wheels, and much that has nothing to do with them.
+TEST(InputCheck, takesNoStonesForOppositeTurns) {
+  RoughDrive drive;
+  for (int i = 0; i < 200; ++i) {
+    const double stone_rad = i % 2 == 0 ? 0.03 : -0.03;
+    drive.turn(stone_rad, -0.4 * stone_rad + (i % 4 < 2 ? 0.03 : -0.03));
+    ASSERT_EQ(drive.check.complaint(), "") << "after " << drive.t_s << " s";
+  }
+}
+
+TEST(InputCheck, takesBackThatTurnsAreOppositeOnceTheyAgree) {
+  RoughDrive drive;
+  for (int i = 0; i < 40; ++i) {
+    drive.turn(0.03, -0.03);
+  }
+  EXPECT_TRUE(has(drive.check.complaint(), "opposite directions")) << drive.check.complaint();
+  for (int i = 0; i < 40; ++i) {
+    drive.turn(0.03, 0.03);
+  }
+  EXPECT_EQ(drive.check.complaint(), "");
+}
+
 TEST(InputCheck, namesWheelsWithoutSign) {
   Drive drive;
   drive.direction = -1.0;

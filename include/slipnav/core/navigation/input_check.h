@@ -75,10 +75,12 @@ class InputCheck {
   Nanoseconds newest_wheels_ = 0;
   double wheels_squared_ = 0.0;  ///< Σ of the wheels' turns squared
   double gyro_by_wheels_ = 0.0;  ///< Σ of their products with the gyro's
+  double gyro_squared_ = 0.0;
   double wheels_turned_rad_ = 0.0;
   std::string force_complaint_;
   double complained_force_mps2_ = 0.0;  ///< of the first wrong window; alarms are identified by their text
   std::string rate_complaint_;
+  std::string turn_complaint_;  ///< until gyros and wheels clearly turn together
   std::string complaint_;
 };
 
