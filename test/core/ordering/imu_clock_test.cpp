@@ -125,15 +125,22 @@ TEST_F(ImuClockTest, OneSampleThatComesEarlyIsScatter) {
 }
 
 TEST_F(ImuClockTest, SamplesThatComeTogetherAreSpreadOut) {
-  constexpr std::size_t kBurst = 4;
-  std::vector<Stamped> samples = evenSamples(200.0, 60.0);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const std::size_t last = std::min(i | (kBurst - 1), samples.size() - 1);
-    samples[i].stamp_s = samples[last].true_s + 2e-4 * static_cast<double>(i % kBurst);
+  for (const double rate_hz : {100.0, 200.0, 1000.0}) {
+    for (const std::size_t burst : {2U, 3U, 4U, 5U, 7U, 10U, 16U}) {
+      clock_ = ImuClock(kGapFactor);
+      fed_.clear();
+      corrected_.clear();
+      std::vector<Stamped> samples = evenSamples(rate_hz, 30.0);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        const std::size_t last = std::min(i - i % burst + burst - 1, samples.size() - 1);
+        samples[i].stamp_s = samples[last].true_s + 0.04 / rate_hz * static_cast<double>(i % burst);
+      }
+      feed(samples);
+      EXPECT_LT(spread(), 1e-6) << rate_hz << " Hz, " << burst;
+      EXPECT_EQ(clock_.faults().lost, 0U) << rate_hz << " Hz, " << burst;
+      EXPECT_TRUE(clock_.faults().scatters()) << rate_hz << " Hz, " << burst;
+    }
   }
-  feed(samples);
-  EXPECT_LT(spread(), 1e-6);
-  EXPECT_EQ(clock_.faults().lost, 0U);
 }
 
 TEST_F(ImuClockTest, OfEqualStampsBothAreUsed) {

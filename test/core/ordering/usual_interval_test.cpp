@@ -16,12 +16,27 @@ TEST(UsualInterval, FirstIntervalDoesNotMatter) {
   EXPECT_FALSE(usual.isKnown());
 }
 
-TEST(UsualInterval, SeesThroughBursts) {
+TEST(UsualInterval, SeesThroughBurstsOfAnySize) {
+  constexpr double kAtOnce_s = 0.0002;
+  for (const int burst : {2, 3, 4, 5, 7, 10, 16, 20, 33, 50}) {
+    UsualInterval usual;
+    for (int i = 0; i < 40 * burst + 200; ++i) {
+      usual.add(i % burst == 0 ? burst * 0.005 - (burst - 1) * kAtOnce_s : kAtOnce_s);
+    }
+    EXPECT_NEAR(usual.value(), 0.005, 1e-12) << burst;
+  }
+}
+
+TEST(UsualInterval, ManySamplesAtOnceChangeNothing) {
   UsualInterval usual;
   for (int i = 0; i < 200; ++i) {
-    usual.add(i % 4 == 0 ? 0.0194 : 0.0002);
+    usual.add(0.01);
   }
-  EXPECT_NEAR(usual.value(), 0.005, 1e-12);
+  usual.add(0.6);
+  for (std::size_t i = 0; i < UsualInterval::kLongestBunch; ++i) {
+    usual.add(0.0001);
+  }
+  EXPECT_NEAR(usual.value(), 0.01, 1e-12);
 }
 
 TEST(UsualInterval, SeesThroughLosses) {

@@ -17,6 +17,8 @@ constexpr double kLongestSlip_m = 3.0;
 /// A rover that digs itself in moves a little, and not at random from one sample to the next.
 constexpr double kDiggingStd_mps = 0.05;
 constexpr double kDiggingTime_s = 1.0;
+/// Of the fastest wheel: a vehicle whose middle is slower turns on the spot.
+constexpr double kOnTheSpot = 0.5;
 
 Innovation1 innovationOf(const Measurement& m, int persistent_slip, const ErrorCovariance& P) {
   return {m.residual(0), (m.H * covarianceWithPrediction(m.H, P))(0, 0) + m.variance(0),
@@ -81,9 +83,7 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
   if (wheels.count > 1 && wheels.count == wheel_monitor_.count()) {
     wheel_monitor_.add(wheels.stamp, wheels.circumferential_mps, motion.omega_ib_b.z());
   }
-  if (use_wheel_ && wheel_monitor_.isUsable() &&
-      runaway_.addWheels(wheels.stamp, std::min(wheels.largest_speed_mps, setup_.wheel_monitor.max_speed_mps),
-                         state_.v_eb_n.norm(), motion.duration_s)) {
+  if (hasRunAway(wheels, motion)) {
     recover(wheels);
     return true;
   }
@@ -102,6 +102,18 @@ bool FilterEngine::applyWheelSample(const WheelMotion& wheels, const BodyMotion&
     estimate_.noise_factors.slow_slip = adaptation_.ground().slow_slip_variance / slow_slip_variance;
   }
   return corrected;
+}
+
+/// On the spot, where left and right wheels turn opposite ways, there is no direction to move against.
+bool FilterEngine::hasRunAway(const WheelMotion& wheels, const BodyMotion& motion) {
+  if (!use_wheel_ || !wheel_monitor_.isUsable()) {
+    return false;
+  }
+  const double wheels_mps = std::min(wheels.largest_speed_mps, setup_.wheel_monitor.max_speed_mps);
+  const double ahead_mps = std::copysign(motion.v_eb_b.x(), motion.v_eb_b.x() * wheels.motion.forward_mps);
+  const bool turns_on_the_spot = std::abs(wheels.motion.forward_mps) < kOnTheSpot * wheels_mps;
+  return runaway_.addWheels(wheels.stamp, wheels_mps, state_.v_eb_n.norm(),
+                            turns_on_the_spot ? -std::abs(ahead_mps) : -ahead_mps, motion.duration_s);
 }
 
 /// Whether it stands while its wheels turn. Needs an earlier drive for comparison.

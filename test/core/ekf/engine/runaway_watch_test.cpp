@@ -2,18 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace slipnav::test {
 namespace {
 
 constexpr double kStep_s = 0.1;
 constexpr double kGravity_mps2 = 9.81;
 
-/// How often it has run away in `duration_s` of the same speeds.
-int ranAway(RunawayWatch& watch, double wheels_mps, double speed_mps, double duration_s, Nanoseconds& now) {
+/// How often it has run away in `duration_s` of the same speeds, negative against the wheels.
+int ranAway(RunawayWatch& watch, double wheels_mps, double forward_mps, double duration_s, Nanoseconds& now) {
   int count = 0;
   for (Nanoseconds end = now + fromSeconds(duration_s); now < end;) {
     now += fromSeconds(kStep_s);
-    count += watch.addWheels(now, wheels_mps, speed_mps, kStep_s) ? 1 : 0;
+    count += watch.addWheels(now, wheels_mps, std::abs(forward_mps), -forward_mps, kStep_s) ? 1 : 0;
   }
   return count;
 }
@@ -28,7 +30,16 @@ TEST_F(Runaway, IsTwiceTheFastestForASecond) {
   EXPECT_EQ(ranAway(watch_, 1.0, 1.9, 60.0, now_), 0);
   EXPECT_EQ(ranAway(watch_, 1.0, 2.1, 0.9, now_), 0);
   EXPECT_EQ(ranAway(watch_, 1.0, 2.1, 0.2, now_), 1);
-  EXPECT_NEAR(watch_.wayBeyond_m(), 1.1 * 1.1, 0.12);
+  EXPECT_NEAR(watch_.wayBeyond_m(), 60.0 * 0.9 + 1.1 * 1.1, 0.3);
+}
+
+/// Slip of more than all: a vehicle that stands on spinning wheels may seem to move back a little.
+TEST_F(Runaway, IsAQuarterAgainstTheWheelsForASecond) {
+  EXPECT_EQ(ranAway(watch_, 0.8, -0.19, 60.0, now_), 0);
+  EXPECT_EQ(ranAway(watch_, 0.8, 0.8, 1.0, now_), 0);
+  EXPECT_EQ(ranAway(watch_, 0.8, 0.2, 4.0, now_), 0) << "slip of three quarters";
+  EXPECT_EQ(ranAway(watch_, 0.8, -0.21, 1.15, now_), 1);
+  EXPECT_NEAR(watch_.wayBeyond_m(), 4.0 * 0.6 + 1.1 * 1.01, 0.15);
 }
 
 TEST_F(Runaway, IsSaidAgainWhileItLasts) { EXPECT_EQ(ranAway(watch_, 1.0, 9.0, 5.05, now_), 4); }

@@ -120,6 +120,7 @@ class FilterEngine {
   bool applyWheelSample(const WheelMotion& wheels, const BodyMotion& motion);
   bool stand(const WheelMotion& wheels, const BodyMotion& motion);
   bool drive(const WheelMotion& wheels, const BodyMotion& motion);
+  bool hasRunAway(const WheelMotion& wheels, const BodyMotion& motion);
   bool spinsOnTheSpot(const WheelMotion& wheels, const BodyMotion& motion);
   bool standOnSpinningWheels(const WheelMotion& wheels, const BodyMotion& motion);
   void recover(const WheelMotion& wheels);
