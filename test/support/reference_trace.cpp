@@ -57,12 +57,12 @@ void ReferenceTrace::compare() const {
   std::ifstream file(path);
   std::size_t number = 0;
   for (std::string expected; std::getline(file, expected); ++number) {
-    ASSERT_LT(number, lines_.size()) << path << " goes on";
+    ASSERT_LT(number, lines_.size()) << path << " has more";
     ASSERT_TRUE(sameLine(lines_[number], expected))
         << path << ':' << number + 1 << "\n  was: " << expected << "\n  is:  " << lines_[number];
   }
   EXPECT_GT(number, 0U) << path;
-  EXPECT_EQ(number, lines_.size()) << path << " ends";
+  EXPECT_EQ(number, lines_.size()) << path << " has fewer";
 }
 
 double Dice::normal() {

@@ -66,7 +66,7 @@ TEST_F(Runaway, TheLevelIsThatOfTheLastSeconds) {
 
 TEST_F(Runaway, IsNoneAtExactlyTwiceTheFastest) { EXPECT_EQ(ranAway(watch_, 1.0, 2.0, 60.0, now_), 0); }
 
-/// As at the begin of a drive: a tenth of a meter per second is what they may do at any moment.
+/// As at the start of a drive: a tenth of a meter per second is what they may do at any moment.
 TEST_F(Runaway, WheelsThatHardlyTurnAreNoMeasure) {
   EXPECT_EQ(ranAway(watch_, 0.02, 0.19, 60.0, now_), 0);
   EXPECT_EQ(ranAway(watch_, 0.02, 0.21, 1.15, now_), 1);
