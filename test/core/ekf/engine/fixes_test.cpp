@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "evaluation/simulated_run.h"
 #include "recorded_drive.h"
+#include "slipnav/core/ekf/engine/filter_history.h"
 
 namespace slipnav::test {
 namespace {
@@ -236,6 +238,41 @@ TEST_F(WaitingFilter, FixesThatAreNotLaterOrNotFiniteAreRefused) {
     (component < 3 ? velocity.v_ea_n(component) : velocity.variance_ned_m2ps2(component - 3)) = nan;
     EXPECT_FALSE(filter_.push(AntennaFix(fix))) << component;
     EXPECT_FALSE(filter_.push(AntennaFix(velocity))) << component;
+  }
+}
+
+/// Without wheels it waits for fixes alone.
+TEST_F(WaitingFilter, AResetForgetsThatFixesWereComplete) {
+  FilterSetup only_fixes = setup();
+  only_fixes.filter.updates.clear();
+  filter_ = FilterEngine(Planet::byName("earth"), only_fixes);
+  filter_.initialize(initial_);
+  filter_.assumeCompleteUpTo(initial_.nav.stamp + 100 * kSecond);
+  pushSteps();
+  EXPECT_EQ(advance(), 5);
+  filter_.reset();
+  filter_.initialize(initial_);
+  pushSteps();
+  EXPECT_EQ(advance(), 0);
+}
+
+/// Nothing has moved meanwhile: what a fix says of the end holds for the start as well.
+TEST_F(WaitingFilter, ASmootherTakesAFixBackToTheStart) {
+  constexpr double kOff_m = 0.02;
+  const Planet planet = Planet::byName("earth");
+  const auto history = std::make_shared<FilterHistory>(planet);
+  filter_.keepHistory(history);
+  filter_.initialize(initial_);
+  PositionFix fix{initial_.nav.stamp + kSecond / 11, initial_.nav.position, Vector3::Constant(1e-8)};
+  fix.position.latitude_rad += kOff_m / (planet.meridianRadius(0.7) + 200.0);
+  filter_.push(AntennaFix(fix));
+  pushSteps();
+  filter_.assumeCompleteUpTo(initial_.nav.stamp + kSecond);
+  EXPECT_EQ(advance(), 5);
+  const std::vector<SmoothedState> epochs = history->smooth();
+  ASSERT_EQ(epochs.size(), 2U);
+  for (const SmoothedState& epoch : epochs) {
+    EXPECT_NEAR(positionDifference(planet, epoch.nav.position, initial_.nav.position).x(), kOff_m, 0.1 * kOff_m);
   }
 }
 
