@@ -24,19 +24,16 @@ Vector3 LocalFrame::toEnu(const Geodetic& position) const {
 }
 
 Geodetic LocalFrame::toGeodetic(const Vector3& position_enu_m) const {
-  double latitude_deg = 0.0;
-  double longitude_deg = 0.0;
-  double height_m = 0.0;
-  plane_.Reverse(position_enu_m.x(), position_enu_m.y(), position_enu_m.z(), latitude_deg, longitude_deg, height_m);
-  return {degToRad(latitude_deg), degToRad(longitude_deg), height_m};
+  Vector3 geodetic;  // latitude and longitude [°], height [m]
+  plane_.Reverse(position_enu_m.x(), position_enu_m.y(), position_enu_m.z(), geodetic.x(), geodetic.y(), geodetic.z());
+  return {degToRad(geodetic.x()), degToRad(geodetic.y()), geodetic.z()};
 }
 
 Matrix3 LocalFrame::C_n_to_enu(const Geodetic& position) const {
   static thread_local std::vector<double> m(9);
-  double x = 0.0;
-  double y = 0.0;
-  double z = 0.0;
-  plane_.Forward(radToDeg(position.latitude_rad), radToDeg(position.longitude_rad), position.height_m, x, y, z, m);
+  Vector3 enu;
+  plane_.Forward(radToDeg(position.latitude_rad), radToDeg(position.longitude_rad), position.height_m, enu.x(), enu.y(),
+                 enu.z(), m);
   // GeographicLib's matrix takes local east-north-up at the position to this plane's axes
   Matrix3 C_enu_to_enu0;
   C_enu_to_enu0 << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];

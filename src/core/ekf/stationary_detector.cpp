@@ -81,9 +81,8 @@ StationaryDetector::Window StationaryDetector::window() const {
   if (size_ == 0) {
     return w;
   }
-  const Nanoseconds newest = ring_[(head_ + kRingSize - 1) % kRingSize].stamp;
-  const Nanoseconds begin = newest - fromSeconds(params_.window_s);
   const Sample& origin = ring_[(head_ + kRingSize - 1) % kRingSize];  // differences to it preserve precision
+  const Nanoseconds begin = origin.stamp - fromSeconds(params_.window_s);
   Vector3 sum_f = Vector3::Zero();
   Vector3 sum_rate = Vector3::Zero();
   double sum_f2 = 0.0;

@@ -97,7 +97,6 @@ ErrorTransition CovarianceForecast::onGround(ErrorTransition transition, const D
 CovarianceForecast::Odometry CovarianceForecast::odometry(const DriveStep& step, const GroundOutlook& outlook) const {
   const VelocityJacobian H_v = bodyVelocityJacobian(step.state, setup_.lever_imu_to_reference_b);
   BodyMotion motion;
-  motion.duration_s = step_s_;
   motion.v_eb_b = Vector3(step.speed_mps, 0.0, 0.0);
   const NoiseFactors& factors = step.noise_factors;
   const WheelInterval interval{step.wheel_speed_mps, step.wheel_speed_mps, step_s_ / samples_per_step_};

@@ -44,6 +44,11 @@ TEST(Rotation, VectorOfAQuaternionIgnoresItsSign) {
   Quaternion q = quaternionFromRotationVector(phi);
   q.coeffs() *= -1.0;
   EXPECT_NEAR((rotationVectorFromQuaternion(q) - phi).norm(), 0.0, 1e-15);
+  for (const double angle : {1e-9, 1e-7, 1e-3}) {
+    Quaternion small = quaternionFromRotationVector(Vector3(0.0, angle, 0.0));
+    small.coeffs() *= -1.0;
+    EXPECT_NEAR(rotationVectorFromQuaternion(small).y() / angle, 1.0, 1e-9) << angle;
+  }
   // beyond π it is the short way round
   EXPECT_NEAR((roundTrip(Vector3(0.0, 0.0, kPi + 0.1)) - Vector3(0.0, 0.0, -kPi + 0.1)).norm(), 0.0, 1e-14);
 }

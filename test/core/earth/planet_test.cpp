@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/base/square.h"
 #include "slipnav/core/earth/local_frame.h"
 
 namespace slipnav {
@@ -121,6 +122,18 @@ TEST(Planet, TransportRateTurnsTheLocalAxes) {
     EXPECT_NEAR((earth.omega_en_n(place, v) - omega).norm(), 0.0, 1e-11) << v.transpose();
     EXPECT_GT(omega.norm(), 1e-6);
   }
+}
+
+/// Of the IAU: the ellipsoid of Mars, the sphere of the Moon.
+TEST(Planet, MarsAndMoonHaveTheirFigures) {
+  const Planet mars = Planet::byName("mars");
+  EXPECT_EQ(mars.equatorialRadius(), 3396190.0);
+  EXPECT_NEAR(1.0 / mars.flattening(), 169.89444722, 1e-8);
+  EXPECT_NEAR(gravityAt(mars, 0.0, 0.0), 4.282837e13 / square(3396190.0), 0.03) << "less what the rotation takes";
+  const Planet moon = Planet::byName("moon");
+  EXPECT_EQ(moon.equatorialRadius(), 1737400.0);
+  EXPECT_EQ(moon.flattening(), 0.0);
+  EXPECT_NEAR(gravityAt(moon, 90.0, 0.0), 4.9028e12 / square(1737400.0), 1e-4);
 }
 
 }  // namespace

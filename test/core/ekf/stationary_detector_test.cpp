@@ -265,5 +265,16 @@ TEST_F(StationaryDetectorTest, OtherLimitsHoldAtOnceForTheSamplesSoFar) {
   EXPECT_TRUE(detector_.judge(kGravity));
 }
 
+/// Of an IMU so fast that its samples of a window are more than are kept, those that are kept are the window.
+TEST_F(StationaryDetectorTest, AWindowIsFilledByTheLastTwoThousandSamples) {
+  for (int i = 0; i < 2047; ++i) {
+    detector_.addImu(fromSeconds(10.0 + 1e-5 * i), Vector3(0.0, 0.0, -kGravity), Vector3::Zero());
+  }
+  EXPECT_FALSE(detector_.window().filled);
+  detector_.addImu(fromSeconds(10.1), Vector3(0.0, 0.0, -kGravity), Vector3::Zero());
+  EXPECT_TRUE(detector_.window().filled);
+  EXPECT_NEAR(detector_.window().period_s, params().window_s / 2048.0, 1e-12);
+}
+
 }  // namespace
 }  // namespace slipnav::test

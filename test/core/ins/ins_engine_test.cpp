@@ -331,8 +331,8 @@ TEST(InsEngine, KeepsTheNewestStepsOnly) {
     }
   }
   ASSERT_EQ(steps.size(), imu.size() - 1);
-  EXPECT_FALSE(engine.correct({1, steps[steps.size() - 6000].state}));
-  EXPECT_TRUE(engine.correct({1, steps[steps.size() - 2000].state}));
+  EXPECT_FALSE(engine.correct({1, steps[steps.size() - 4098].state}));
+  EXPECT_TRUE(engine.correct({1, steps[steps.size() - 4097].state}));
   EXPECT_TRUE(sameState(drain(engine).back().state, steps.back().state));
 }
 

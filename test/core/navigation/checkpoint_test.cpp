@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
 
@@ -89,6 +90,34 @@ TEST(Checkpoint, NumbersThatAreNoStateAreRefused) {
   checkpoint = someCheckpoint();
   checkpoint.state.nav.v_eb_n.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(refusalOf(formatCheckpoint(checkpoint)), "checkpoint has a wrong value in 'v_eb_n'");
+}
+
+TEST(Checkpoint, MoreHyperparametersThanAnyModelHasAreRefused) {
+  Checkpoint checkpoint = someCheckpoint();
+  checkpoint.slip_hyperparameters.assign(64, 0.5);
+  EXPECT_EQ(parseCheckpoint(formatCheckpoint(checkpoint)).slip_hyperparameters.size(), 64U);
+  checkpoint.slip_hyperparameters.push_back(0.5);
+  EXPECT_EQ(refusalOf(formatCheckpoint(checkpoint)), "checkpoint has a wrong value in 'slip_hyperparameters'");
+}
+
+/// Of each of the numbers that a state can be wrong in, the last one that is possible and the first one that is not.
+TEST(Checkpoint, TheLimitsOfAStateBelongToNone) {
+  const auto isRefused = [](const std::function<void(InitialState&)>& change) {
+    Checkpoint checkpoint = someCheckpoint();
+    change(checkpoint.state);
+    return !refusalOf(formatCheckpoint(checkpoint)).empty();
+  };
+  EXPECT_TRUE(isRefused([](InitialState& s) { s.nav.stamp = 0; }));
+  EXPECT_FALSE(isRefused([](InitialState& s) { s.nav.stamp = 1; }));
+  EXPECT_TRUE(isRefused([](InitialState& s) { s.nav.position.latitude_rad = -0.5 * kPi; }));
+  EXPECT_FALSE(isRefused([](InitialState& s) { s.nav.position.latitude_rad = -1.57; }));
+  EXPECT_TRUE(isRefused([](InitialState& s) { s.origin.latitude_rad = 0.5 * kPi; }));
+  EXPECT_FALSE(isRefused([](InitialState& s) { s.origin.latitude_rad = 1.57; }));
+  EXPECT_TRUE(isRefused([](InitialState& s) { s.standstill_variance = -1e-12; }));
+  EXPECT_FALSE(isRefused([](InitialState& s) { s.standstill_variance = 0.0; }));
+  EXPECT_TRUE(isRefused([](InitialState& s) { s.nav.q_b_to_n.coeffs() *= 1.0 + 2e-6; }));
+  EXPECT_FALSE(isRefused([](InitialState& s) { s.nav.q_b_to_n.coeffs() *= 1.0 + 5e-7; }));
+  EXPECT_TRUE(isRefused([](InitialState& s) { s.P(3, 4) += 1e-3 * s.P.norm(); }));
 }
 
 /// A checkpoint file in the temporary folder.
@@ -215,6 +244,22 @@ TEST(ResumeFrom, AnotherTimeIsRefused) {
   EXPECT_NO_THROW(resumeAfter(0.9 * params.max_age_s));
   EXPECT_THROW(resumeAfter(1.1 * params.max_age_s), std::invalid_argument);
   EXPECT_THROW(resumeAfter(-1.0), std::invalid_argument);
+}
+
+/// The oldest that is used, and the one before.
+TEST(ResumeFrom, AnAgeOfExactlyTheLimitIsNotTooOld) {
+  const Checkpoint checkpoint = someCheckpoint();
+  const Nanoseconds stamp = checkpoint.state.nav.stamp;
+  CheckpointParams params;
+  params.max_age_s = 16.0;
+  EXPECT_NO_THROW(resumeFrom(checkpoint, stamp, ErrorVector::Ones(), params));
+  EXPECT_NO_THROW(resumeFrom(checkpoint, stamp + 16 * kSecond, ErrorVector::Ones(), params));
+  try {
+    resumeFrom(checkpoint, stamp + 17 * kSecond + kSecond / 4, ErrorVector::Ones(), params);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "checkpoint is 17.3 s old; checkpoint.max_age_s is 16");
+  }
 }
 
 }  // namespace

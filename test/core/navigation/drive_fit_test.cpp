@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "reference_trace.h"
 #include "slipnav/core/base/rotation.h"
 
 namespace slipnav {
@@ -175,6 +177,29 @@ TEST_F(DriveFitTest, FixesThatWorsenInTheEndAreNotThoseOfAnotherClock) {
   std::vector<PositionFix> on_the_straight_line = fixes(0.0, reflected);
   on_the_straight_line.erase(on_the_straight_line.begin(), on_the_straight_line.begin() + 160);
   EXPECT_EQ(lag(on_the_straight_line, kEnd_s), std::nullopt);
+}
+
+/// Of fixes that are early or late, and scatter more or less, before the drive and far into it.
+TEST_F(DriveFitTest, FitsAndLagsAreTheSame) {
+  test::ReferenceTrace trace("drive_fit");
+  const Nanoseconds begin = fromSeconds(kBegin_s);
+  for (const double noise_m : {0.01, 0.05, 0.3}) {
+    test::Dice dice(9);
+    for (const double late_s : {0.0, -0.5, 0.75, 2.0, -9.0, 39.5, 42.0}) {
+      const std::vector<PositionFix> scattered =
+          fixes(late_s, [&](double, Vector2& ne_m) { ne_m += noise_m * Vector2(dice.normal(), dice.normal()); });
+      for (const double until_s : {20.4, 40.0, 60.0}) {
+        const std::optional<DriveFit> fit =
+            fitDrive(planet_, scattered, track(), kReference, begin, begin + fromSeconds(until_s));
+        const DriveFit f = fit.value_or(DriveFit{});
+        trace.note(late_s, until_s, fit.has_value(), f.heading_rad, f.heading_std_rad, f.scale, f.distance_m,
+                   f.residual_m, f.fix_std_m, f.start_ne_m.norm(), meanHeight(scattered, begin, begin + kSecond));
+      }
+      trace.note(late_s, "lag", lag(scattered, 50.0).value_or(0.0),
+                 lag(scattered, 58.0 + std::max(0.0, late_s)).value_or(0.0));
+    }
+  }
+  trace.compare();
 }
 
 }  // namespace

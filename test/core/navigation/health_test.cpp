@@ -97,5 +97,50 @@ TEST_F(HealthOfADrive, WheelsThatTurnOnTheSpotAreNoticed) {
   EXPECT_GT(alarms.at(stuck).first, stuck_from);
 }
 
+TEST(HealthMonitor, ASizeIsSaidAgainOnceItHasGrownByAQuarter) {
+  HealthMonitor health(setup());
+  health.noteSized("scatter", 4.0, "ms", kSecond);
+  health.noteSized("scatter", 5.0, "ms", 2 * kSecond);
+  ASSERT_EQ(health.alarms().count("scatter 4 ms"), 1U);
+  EXPECT_EQ(health.alarms().at("scatter 4 ms").count, 2U);
+  health.noteSized("scatter", 5.25, "ms", 3 * kSecond);
+  health.noteSized("scatter", 1.0, "ms", 4 * kSecond);
+  ASSERT_EQ(health.alarms().size(), 1U);
+  const Alarm& alarm = health.alarms().at("scatter 5.2 ms");
+  EXPECT_EQ(alarm.first, kSecond);
+  EXPECT_EQ(alarm.last, 4 * kSecond);
+  EXPECT_EQ(alarm.count, 4U);
+}
+
+TEST(HealthMonitor, CountsWhatIsWrongWithStamps) {
+  HealthMonitor health(setup());
+  StampFaults faults;
+  health.noteStamps(faults, kSecond);
+  EXPECT_TRUE(health.alarms().empty());
+  faults.equal = 2;
+  faults.lost = 3;
+  faults.usual_interval_s = 0.01;
+  faults.scatter_s = 0.002;
+  for (int i = 2; i < 5; ++i) {
+    health.noteStamps(faults, i * kSecond);
+  }
+  EXPECT_EQ(health.alarms().at("IMU stamps equal").count, 2U);
+  EXPECT_EQ(health.alarms().at("IMU samples lost").count, 3U);
+  EXPECT_EQ(health.alarms().at("IMU stamps scatter by 2 ms").count, 1U) << "the same scatter is no other one";
+  health.noteSetBack(5.04, 9 * kSecond);
+  EXPECT_EQ(health.alarms().count("clock set back by 5 s"), 1U);
+}
+
+TEST(HealthMonitor, NamesWheelsThatHaveNoName) {
+  FilterSetup nameless = setup();
+  nameless.wheels[2].name.clear();
+  HealthMonitor health(nameless);
+  WheelMotion wheels;
+  wheels.stamp = 7 * kSecond;
+  health.noteWheels(wheels, false);
+  health.noteWheels(wheels, true);
+  EXPECT_EQ(health.alarms().at("wheel sample repeated or too late").count, 1U);
+}
+
 }  // namespace
 }  // namespace slipnav::test

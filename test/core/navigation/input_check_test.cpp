@@ -224,5 +224,16 @@ TEST(InputCheck, isNotMisledByBiases) {
   EXPECT_EQ(drive.complaint(), "");
 }
 
+/// Ten samples in two seconds are enough for a mean, nine are not.
+TEST(InputCheck, judgesAForceByTenSamples) {
+  for (const int intervals : {8, 9, 10}) {
+    InputCheck check(kGravity_mps2, 0.0005);
+    for (int i = 0; i <= intervals; ++i) {
+      check.push(ImuSample{kSecond + i * 2 * kSecond / intervals + 1, {0.0, 0.0, -1.0}, Vector3::Zero()});
+    }
+    EXPECT_EQ(check.complaint().empty(), intervals < 9) << intervals;
+  }
+}
+
 }  // namespace
 }  // namespace slipnav

@@ -110,5 +110,24 @@ TEST(NewStart, IsLikeTheFirst) {
   }
 }
 
+/// A start becomes known long after its stamp.
+TEST(NewStart, FixesOfTheDriveSoFarAreUsed) {
+  const InitialState initial = recordDrive(config()).initial;
+  const NavigationState& begin = initial.nav;
+  Estimator estimator(Planet::byName("earth"), config().navigation().filter);
+  for (int i = 1; i <= 5000; ++i) {
+    EXPECT_TRUE(estimator.push(AntennaFix(PositionFix{begin.stamp + i, begin.position, Vector3::Ones()})));
+  }
+  estimator.take(Start{1, 0, initial});
+  InsStep step;
+  step.start = begin.stamp;
+  step.state = begin;
+  step.state.stamp += kSecond / 50;
+  EXPECT_EQ(estimator.push(1, step), StepVerdict::kTaken);
+  estimator.assumeCompleteUpTo(step.state.stamp);
+  estimator.advance([](const Estimate&, const ErrorCovariance&) {});
+  EXPECT_EQ(estimator.engine().status(kFixPosition).measured(), 4096U);
+}
+
 }  // namespace
 }  // namespace slipnav::test

@@ -81,5 +81,20 @@ TEST(Output, CovariancesFollowTheOutput) {
   }
 }
 
+/// Over the 50 Hz at which rates are published.
+TEST(Output, NoiseOfTheGyrosIsThatOfThePublishedRate) {
+  const Geodetic origin{0.7, 0.1, 200.0};
+  Estimate estimate = eastbound(origin);
+  estimate.nav.stamp = 7 * kSecond;
+  const ErrorCovariance P = ErrorCovariance::Identity();
+  const Output quiet = OutputMaker(earth(), origin, Vector3::Zero(), 0.0).make(estimate, P);
+  const Output noisy = OutputMaker(earth(), origin, Vector3::Zero(), 1e-3).make(estimate, P);
+  EXPECT_EQ(noisy.stamp, 7 * kSecond);
+  Covariance6 expected = Covariance6::Zero();
+  expected.diagonal().tail<3>().setConstant(0.05);
+  EXPECT_LT((noisy.twist_covariance - quiet.twist_covariance - expected).norm(), 1e-12);
+  EXPECT_EQ(noisy.pose_covariance, quiet.pose_covariance);
+}
+
 }  // namespace
 }  // namespace slipnav::test

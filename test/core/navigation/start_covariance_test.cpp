@@ -18,5 +18,17 @@ TEST(StartCovariance, ABiasBeyondTheDataSheetIsBelieved) {
   EXPECT_EQ(initial.P(kGyroBias + 1, kGyroBias + 1), square(kStd_radps));
 }
 
+/// Three deviations, and the rotation of any planet.
+TEST(StartCovariance, ASurpriseIsMoreThanAPlanetTurns) {
+  for (const double side : {1.0, -1.0}) {
+    for (const double off_radps : {3.9e-4, 4.1e-4}) {
+      InitialState initial;
+      initial.P.diagonal().segment<3>(kGyroBias).setConstant(square(1e-4));
+      believeSurprisingBias(Vector3(0.0, 0.0, side * off_radps), initial);
+      EXPECT_EQ(initial.nav.gyro_bias_b.z(), off_radps > 4e-4 ? side * off_radps : 0.0);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slipnav::test

@@ -270,5 +270,16 @@ TEST_F(ImuClockTest, FollowsAnotherRate) {
   EXPECT_LT(std::abs(errors().back()), 1e-6);
 }
 
+/// A host that never says why it was late: sixty-four samples are enough to wait for.
+TEST_F(ImuClockTest, SamplesThatComeTogetherAreNotHeldForever) {
+  feed(evenSamples(100.0, 5.0));
+  const std::size_t before = corrected_.size();
+  for (int i = 1; i <= 64; ++i) {
+    EXPECT_EQ(corrected_.size(), before) << i;
+    feed({{5.0 + 0.01 * i, 6.0 + 1e-4 * i}});
+  }
+  EXPECT_GT(corrected_.size(), before + 60);
+}
+
 }  // namespace
 }  // namespace slipnav

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+
 namespace slipnav {
 namespace {
 
@@ -29,6 +32,13 @@ TEST(StampWatch, NamesClocksThatAreApart) {
 
 TEST(StampWatch, RecognizesLeapSeconds) {
   EXPECT_EQ(said(18.0, 18.0), "stamps of imu/data and joint_states are 18.0 s apart: is one of them GPS time?");
+}
+
+TEST(StampWatch, LeapSecondsAreWithinHalfASecond) {
+  for (const double ahead_s : {17.4, 17.6, 18.4, 18.6, -17.6, -18.6}) {
+    const bool is_gps_time = std::abs(std::abs(ahead_s) - 18.0) < 0.5;
+    EXPECT_EQ(said(ahead_s, ahead_s).find("GPS time") != std::string::npos, is_gps_time) << ahead_s;
+  }
 }
 
 TEST(StampWatch, MessagesMayBeOnTheirWay) {

@@ -170,5 +170,19 @@ TEST(ImuScreen, EveryRefusalHasItsWords) {
   }
 }
 
+/// Neither triad has repeated itself before.
+TEST(ImuScreen, AfterAResetNoAxisIsStuck) {
+  ImuScreen screen(params());
+  for (int run = 0; run < 2; ++run) {
+    for (int i = 1; i < params().stuck_samples; ++i) {
+      ImuSample sample = sampleAt(100.0 * run + 0.02 * i);
+      sample.f_ib_b = {0.25, 1e-3 * i, -9.8};
+      sample.omega_ib_b = {1e-5 * i, 0.125, 1e-5 * i};
+      EXPECT_EQ(screen.check(sample).verdict, ImuVerdict::kAccepted) << run << " " << i;
+    }
+    screen.reset();
+  }
+}
+
 }  // namespace
 }  // namespace slipnav::test

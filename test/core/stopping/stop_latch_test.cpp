@@ -60,5 +60,13 @@ TEST_F(StopLatchFile, OneThatCannotBeWrittenIsNamed) {
   }
 }
 
+TEST_F(StopLatchFile, LeavesNoFileOpen) {
+  const auto open_files = [] { return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), {}); };
+  saveStopLatch(file_, {});
+  const auto before = open_files();
+  saveStopLatch(file_, {true, false});
+  EXPECT_EQ(open_files(), before);
+}
+
 }  // namespace
 }  // namespace slipnav

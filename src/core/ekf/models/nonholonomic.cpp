@@ -72,8 +72,8 @@ Measurement verticalMeasurement(const NonholonomicParams& params, const BodyMoti
 }
 
 double slipAngle(const Vector3& v_eb_b, const VehicleState& vehicle) {
-  const double direction = v_eb_b.x() < 0.0 ? -1.0 : 1.0;
-  return std::atan2(direction * (v_eb_b.y() + vehicle.mount_yaw_rad * v_eb_b.x()), direction * v_eb_b.x());
+  const double across = v_eb_b.y() + vehicle.mount_yaw_rad * v_eb_b.x();
+  return v_eb_b.x() < 0.0 ? std::atan2(-across, -v_eb_b.x()) : std::atan2(across, v_eb_b.x());
 }
 
 }  // namespace slipnav

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/square.h"
@@ -86,6 +87,31 @@ TEST(SuccessiveDifference, NeedsTheSameDirection) {
   difference.squared(1.0, kAside);
   EXPECT_LT(difference.squared(1.0, Vector3::UnitX()), 0.0);
   EXPECT_NEAR(difference.squared(-1.0, -Vector3::UnitX()), 0.0, 1e-12) << "the same velocity, from the other side";
+}
+
+/// Each innovation moves the logarithm by 0.3 times its product with the one before, less 0.3, of at most 2 either way.
+TEST(ImuDoubt, MovesByTheProductOfSuccessiveInnovations) {
+  ImuDoubt doubt(2.0);
+  double theta = 2.0 * std::log(2.0);
+  double before = 0.0;
+  for (const double innovation : {1.0, 1.5, -0.5, 1.0, 2.0, 5.0, 5.0, -4.0}) {
+    doubt.compare(kSideways, innovation, kAside);
+    theta += 0.3 * (std::max(-2.0, std::min(innovation * before, 2.0)) - 0.3);
+    before = innovation;
+    EXPECT_NEAR(doubt.excess(), std::expm1(theta), 1e-12) << innovation;
+  }
+  doubt.compare(kOffGround, 5.0, kAside);
+  EXPECT_NEAR(doubt.excess(), std::expm1(theta - 0.09), 1e-12) << "the first off the ground has none before it";
+}
+
+TEST(SuccessiveDifference, ComparesWhatIsNearlyAlongTheSameDirection) {
+  for (const double cosine : {0.79, 0.81, -0.81}) {
+    SuccessiveDifference difference;
+    difference.squared(2.0, Vector3::UnitX());
+    const Vector3 turned(cosine, std::sqrt(1.0 - square(cosine)), 0.0);
+    const double expected = std::abs(cosine) < 0.8 ? -1.0 : 0.5 * square(1.0 - 2.0 * cosine);
+    EXPECT_NEAR(difference.squared(1.0, turned), expected, 1e-12) << cosine;
+  }
 }
 
 }  // namespace

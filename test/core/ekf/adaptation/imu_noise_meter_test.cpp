@@ -109,5 +109,40 @@ TEST(ImuNoiseMeter, AGapIsNoNoise) {
   EXPECT_LT(meter.density().accel.x(), 1e-7);
 }
 
+/// One sample of an eighth of a second that is off by one, after six that are not: the third difference is 1, the
+/// density 1/8 / 20, over half a second a quarter of it; three and a half differences of it may be off by √(4.62/4).
+TEST(ImuNoiseMeter, SaysWhatItMeasuresOnceHalfASecondIsKnown) {
+  ImuNoiseMeter meter;
+  for (int i = 0; i < 6; ++i) {
+    meter.add(Vector3::Zero(), Vector3::Zero(), 0.125);
+    EXPECT_EQ(meter.density().accel.x(), 0.0);
+  }
+  meter.add(Vector3(1.0, 0.0, 0.0), Vector3(0.0, 0.0, 2.0), 0.125);
+  const double expected = (1.0 + std::sqrt(4.62 / 4.0)) * 0.125 / 20.0 / 4.0;
+  EXPECT_NEAR(meter.density().accel.x(), expected, 1e-12);
+  EXPECT_NEAR(meter.density().gyro.z(), 4.0 * expected, 1e-12);
+  EXPECT_EQ(meter.density().accel.y(), 0.0);
+}
+
+/// Of the samples before, nothing is in a mean or a difference.
+TEST(ImuNoiseMeter, AfterAGapItBeginsAsAtFirst) {
+  ImuNoiseMeter interrupted;
+  ImuNoiseMeter fresh;
+  for (int i = 0; i < 3; ++i) {
+    interrupted.add(Vector3(7.0 * i, 3.0, 1.0), Vector3(1.0, 2.0, 5.0 * i), 0.5);
+  }
+  interrupted.interrupt();
+  sim::RandomStream random(1, "noise");
+  for (int i = 0; i < 200; ++i) {
+    const Vector3 force = random.normal3();
+    const Vector3 rate = random.normal3();
+    interrupted.add(force, rate, kPeriod_s);
+    fresh.add(force, rate, kPeriod_s);
+    ASSERT_EQ(interrupted.density().accel, fresh.density().accel) << i;
+    ASSERT_EQ(interrupted.density().gyro, fresh.density().gyro) << i;
+  }
+  EXPECT_GT(fresh.density().accel.minCoeff(), 0.0);
+}
+
 }  // namespace
 }  // namespace slipnav::test

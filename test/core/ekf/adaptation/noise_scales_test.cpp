@@ -129,5 +129,61 @@ TEST(NoiseScales, WhatIsNotFiniteChangesNothing) {
   EXPECT_EQ(scales.factor(kWheelNoise), 1.0);
 }
 
+/// Natural logarithms of the largest factor that is still noise, and of the smallest of all.
+TEST(NoiseScales, NoFactorLeavesWhatIsPossible) {
+  const std::vector<double> largest = {9.0, 2.2, 3.2, 4.2, 3.2, 4.2, 0.0};
+  NoiseScaleParams unknown;
+  unknown.factor_std = unknown.slip_factor_std = unknown.whiteness_factor_std = 100.0;
+  unknown.length_m = 0.1;  // what was learned is forgotten at once
+  for (int i = 0; i < kNoiseKinds; ++i) {
+    const NoiseKind kind = static_cast<NoiseKind>(i);
+    const auto after = [&unknown, kind](double squared) {
+      NoiseScales scales(unknown);
+      NoiseVector shares = NoiseVector::Zero();
+      for (int sample = 0; sample < 100; ++sample) {
+        scales.fade(0.05);
+        shares(kind) = scales.factor(kind);
+        scales.learn(shares, squared, shares(kind));
+      }
+      return scales.factor(kind);
+    };
+    EXPECT_DOUBLE_EQ(after(0.0), std::exp(-9.0)) << kind;
+    EXPECT_DOUBLE_EQ(after(1e9), std::exp(largest.at(static_cast<std::size_t>(i)))) << kind;
+  }
+}
+
+TEST(NoiseScales, AfterALongWayItIsLikeANewOne) {
+  NoiseScales scales({});
+  NoiseScales fresh({});
+  for (int i = 0; i < kNoiseKinds; ++i) {
+    learn(scales, static_cast<NoiseKind>(i), 0.3, 0.0, 50);
+  }
+  scales.fade(1e6);
+  const NoiseVector shares = NoiseVector::LinSpaced(0.1, 0.7);
+  for (NoiseScales* each : {&scales, &fresh}) {
+    each->learn(shares, 7.0, 4.0);
+  }
+  for (int i = 0; i < kNoiseKinds; ++i) {
+    const double factor = fresh.factor(static_cast<NoiseKind>(i));
+    EXPECT_NEAR(scales.factor(static_cast<NoiseKind>(i)), factor, 0.02 * factor) << i;
+  }
+}
+
+TEST(NoiseScales, WhatNoNoiseExplainsTeachesNothing) {
+  NoiseScales scales({});
+  scales.learn(NoiseVector::Zero(), 5.0, 1.0);
+  for (int i = 0; i < kNoiseKinds; ++i) {
+    EXPECT_EQ(scales.factor(static_cast<NoiseKind>(i)), 1.0) << i;
+  }
+}
+
+TEST(NoiseScales, ShakingThatIsNotWhiteAtAllCanStillBeLearned) {
+  NoiseScaleParams params;
+  params.whiteness = 0.0;
+  EXPECT_NEAR(NoiseScales(params).factor(kVibrationNoise), 1e-4, 1e-12);
+  params.whiteness = 0.5;
+  EXPECT_DOUBLE_EQ(NoiseScales(params).factor(kVibrationNoise), 0.5);
+}
+
 }  // namespace
 }  // namespace slipnav::test

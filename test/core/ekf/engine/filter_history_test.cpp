@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "random_states.h"
 
 namespace slipnav::test {
@@ -53,6 +55,27 @@ TEST_F(FilterHistoryTest, KeepsEveryStepOfASlowSensorAndNothingOfTheStartBefore)
   EXPECT_TRUE(history_.smooth().empty());
   step(kSecond);
   EXPECT_EQ(history_.smooth().size(), 1U);
+}
+
+/// A millisecond less than a tenth of a second.
+TEST_F(FilterHistoryTest, StepsAreKeptOnceTheyAreFarEnoughApart) {
+  step(kSecond);
+  step(98 * kSecond / 1000);
+  step(kSecond / 1000);
+  step(99 * kSecond / 1000 - 1);
+  step(1);
+  std::vector<Nanoseconds> kept;
+  for (const SmoothedState& epoch : history_.smooth()) {
+    kept.push_back(epoch.nav.stamp - kStart - kSecond);
+  }
+  EXPECT_EQ(kept, (std::vector<Nanoseconds>{0, 99 * kSecond / 1000, 198 * kSecond / 1000}));
+}
+
+TEST_F(FilterHistoryTest, AStepThatWasNotKeptIsForgottenWithItsDrive) {
+  step(kSecond);
+  step(kSecond / 50);
+  history_.begin(P_);
+  EXPECT_TRUE(history_.smooth().empty());
 }
 
 /// Nothing has moved and nothing was added: what a later measurement says of the end holds for the beginning as well.

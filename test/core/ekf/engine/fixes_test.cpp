@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "evaluation/simulated_run.h"
 #include "recorded_drive.h"
+#include "slipnav/core/ekf/engine/filter_history.h"
 
 namespace slipnav::test {
 namespace {
@@ -130,6 +132,148 @@ TEST_F(Fixes, ThatStandOffHaveNoEffect) {
   config_.gnss.correlation_s = 0.0;
   const EstimateLog log = run("always", with_outliers);
   EXPECT_LT(std::abs(finalError_m(log) - finalError_m(run("always", without))), 1e-3);
+}
+
+/// A filter that waits for wheels and fixes, and steps of a rover at rest.
+class WaitingFilter : public ::testing::Test {
+ protected:
+  WaitingFilter() {
+    initial_.nav.stamp = 1000 * kSecond;
+    initial_.nav.position = {0.7, 0.1, 200.0};
+    initial_.P = 1e-4 * ErrorCovariance::Identity();
+    filter_.initialize(initial_);
+  }
+
+  static FilterSetup setup() {
+    Config config;
+    config.gnss.use = "always";
+    return config.navigation().filter;
+  }
+
+  InsStep step(int number) const {
+    InsStep step;
+    step.start = initial_.nav.stamp + number * kSecond / 50;
+    step.state = initial_.nav;
+    step.state.stamp = step.start + kSecond / 50;
+    step.f_ib_b = Vector3(0.0, 0.0, -9.8);
+    return step;
+  }
+  void pushSteps() {
+    for (int number = 0; number < 5; ++number) {
+      filter_.push(step(number));
+    }
+  }
+  AntennaFix fixAfter(Nanoseconds time) const {
+    return PositionFix{initial_.nav.stamp + time, initial_.nav.position, Vector3::Ones()};
+  }
+
+  /// How many estimates there are, over all corrections.
+  int advance() {
+    int estimates = 0;
+    filter_.advance([&estimates](const Estimate&, const ErrorCovariance&) { ++estimates; });
+    return estimates;
+  }
+
+  InitialState initial_;
+  FilterEngine filter_{Planet::byName("earth"), setup()};
+};
+
+TEST_F(WaitingFilter, AResetDropsEverything) {
+  pushSteps();
+  WheelMotion wheels;
+  wheels.stamp = initial_.nav.stamp + kSecond / 50;
+  EXPECT_TRUE(filter_.push(wheels));
+  EXPECT_TRUE(filter_.push(fixAfter(kSecond / 100)));
+  filter_.assumeCompleteUpTo(initial_.nav.stamp + 100 * kSecond);
+  filter_.reset();
+  EXPECT_FALSE(filter_.isInitialized());
+  EXPECT_EQ(advance(), 0) << "no step is left";
+  filter_.initialize(initial_);
+  pushSteps();
+  EXPECT_EQ(advance(), 0) << "it waits again";
+  filter_.assumeCompleteUpTo(initial_.nav.stamp + kSecond);
+  EXPECT_EQ(advance(), 5);
+  EXPECT_EQ(filter_.status(kFixPosition).measured(), 0U);
+  EXPECT_EQ(filter_.status(kZeroVelocity).measured(), 0U);
+}
+
+TEST_F(WaitingFilter, StepsThatDoNotContinueAreIgnored) {
+  filter_.assumeCompleteUpTo(initial_.nav.stamp + kSecond);
+  filter_.push(step(1));
+  InsStep corrected = step(0);
+  corrected.epoch = 1;
+  filter_.push(corrected);
+  EXPECT_EQ(advance(), 0);
+  filter_.push(step(0));
+  filter_.push(step(0));
+  filter_.push(step(2));
+  filter_.push(step(1));
+  EXPECT_EQ(advance(), 2);
+  FilterEngine without_start(Planet::byName("earth"), setup());
+  without_start.push(step(0));
+  without_start.initialize(initial_);
+  without_start.assumeCompleteUpTo(initial_.nav.stamp + kSecond);
+  EXPECT_FALSE(without_start.advance([](const Estimate&, const ErrorCovariance&) { FAIL(); }));
+}
+
+TEST_F(WaitingFilter, KeepsTheNewestFixes) {
+  for (int i = 1; i <= 4100; ++i) {
+    EXPECT_TRUE(filter_.push(fixAfter(i)));
+  }
+  filter_.push(step(0));
+  filter_.assumeCompleteUpTo(initial_.nav.stamp + kSecond);
+  EXPECT_EQ(advance(), 1);
+  EXPECT_EQ(filter_.status(kFixPosition).measured(), 4096U);
+}
+
+TEST_F(WaitingFilter, FixesThatAreNotLaterOrNotFiniteAreRefused) {
+  EXPECT_FALSE(filter_.push(fixAfter(0)));
+  EXPECT_TRUE(filter_.push(fixAfter(1)));
+  const double nan = std::nan("");
+  for (int component = 0; component < 6; ++component) {
+    PositionFix fix{initial_.nav.stamp + 2, initial_.nav.position, Vector3::Ones()};
+    VelocityFix velocity{initial_.nav.stamp + 2, Vector3::Zero(), Vector3::Ones()};
+    double* const position[] = {&fix.position.latitude_rad, &fix.position.longitude_rad, &fix.position.height_m};
+    *(component < 3 ? position[component] : &fix.variance_ned_m2(component - 3)) = nan;
+    (component < 3 ? velocity.v_ea_n(component) : velocity.variance_ned_m2ps2(component - 3)) = nan;
+    EXPECT_FALSE(filter_.push(AntennaFix(fix))) << component;
+    EXPECT_FALSE(filter_.push(AntennaFix(velocity))) << component;
+  }
+}
+
+/// Without wheels it waits for fixes alone.
+TEST_F(WaitingFilter, AResetForgetsThatFixesWereComplete) {
+  FilterSetup only_fixes = setup();
+  only_fixes.filter.updates.clear();
+  filter_ = FilterEngine(Planet::byName("earth"), only_fixes);
+  filter_.initialize(initial_);
+  filter_.assumeCompleteUpTo(initial_.nav.stamp + 100 * kSecond);
+  pushSteps();
+  EXPECT_EQ(advance(), 5);
+  filter_.reset();
+  filter_.initialize(initial_);
+  pushSteps();
+  EXPECT_EQ(advance(), 0);
+}
+
+/// Nothing has moved meanwhile: what a fix says of the end holds for the start as well.
+TEST_F(WaitingFilter, ASmootherTakesAFixBackToTheStart) {
+  constexpr double kOff_m = 0.02;
+  const Planet planet = Planet::byName("earth");
+  const auto history = std::make_shared<FilterHistory>(planet);
+  filter_.keepHistory(history);
+  filter_.initialize(initial_);
+  PositionFix fix{initial_.nav.stamp + kSecond / 11, initial_.nav.position, Vector3::Constant(1e-8)};
+  fix.position.latitude_rad += kOff_m / (planet.meridianRadius(0.7) + 200.0);
+  filter_.push(AntennaFix(fix));
+  pushSteps();
+  filter_.assumeCompleteUpTo(initial_.nav.stamp + kSecond);
+  EXPECT_EQ(advance(), 5);
+  const std::vector<SmoothedState> epochs = history->smooth();
+  ASSERT_EQ(epochs.size(), 2U);
+  for (const SmoothedState& epoch : epochs) {
+    EXPECT_NEAR(positionDifference(planet, epoch.nav.position, initial_.nav.position).x(), kOff_m, 0.1 * kOff_m);
+  }
 }
 
 }  // namespace

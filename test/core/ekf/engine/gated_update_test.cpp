@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace slipnav::test {
 namespace {
@@ -190,6 +192,22 @@ TEST_F(GatedUpdateTest, OtherGatesHoldFromThenOnAndTheCountsStay) {
   EXPECT_TRUE(apply(kForwardSpeed, velocityOff(1.0), 0.2));
   EXPECT_EQ(update_.status(kForwardSpeed).accepted, 2U);
   EXPECT_EQ(update_.status(kForwardSpeed).rejected, 1U);
+}
+
+TEST_F(GatedUpdateTest, ItsPatienceEndsExactlyWhenItIsSaidTo) {
+  FilterParams other = params();
+  other.max_rejection_s = 1.0;
+  other.max_standstill_doubt_s = 0.5;
+  update_.retune(other);
+  const std::vector<std::pair<Component, double>> patience_s = {
+      {kForwardSpeed, 1.0}, {kLateral, 1.0}, {kVertical, 1.0}, {kZeroVelocity, 0.5}, {kZeroRate, 0.5}};
+  for (const auto& [component, seconds] : patience_s) {
+    P_ = kSigma * kSigma * ErrorCovariance::Identity();
+    EXPECT_FALSE(apply(component, velocityOff(20.0), 0.0));
+    EXPECT_FALSE(apply(component, velocityOff(20.0), seconds - 1e-3)) << component;
+    EXPECT_TRUE(apply(component, velocityOff(20.0), seconds)) << component;
+    EXPECT_EQ(update_.status(component).rejected, 2U);
+  }
 }
 
 }  // namespace

@@ -122,5 +122,16 @@ TEST_F(ImuGapUncertaintyTest, WayAndTurnAreInDoubtWhenNothingNeedHaveMoved) {
   EXPECT_EQ(sigma(kAttitude), 0.0);
 }
 
+/// Ten seconds after a gap, to the nanosecond.
+TEST_F(ImuGapUncertaintyTest, IsSettledByWheelsAfterTenSeconds) {
+  for (const Nanoseconds after : {10 * kSecond - 1, 10 * kSecond}) {
+    ImuGapUncertainty unseen(params_);
+    unseen.begin(state_, 1.0, 0.0, P_);
+    P_.setZero();
+    unseen.doubt(state_.stamp + after, P_);
+    EXPECT_EQ(P_.isZero(), after == 10 * kSecond) << after;
+  }
+}
+
 }  // namespace
 }  // namespace slipnav

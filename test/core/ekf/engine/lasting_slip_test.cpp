@@ -49,5 +49,18 @@ TEST(LastingSlip, StartsAgainWhereAWheelHasGripped) {
   EXPECT_EQ(lasted(lasting, 0.5, 1.8), 0);
 }
 
+/// Lengths and deviations that are exact in binary.
+TEST(LastingSlip, MoreThanFourLengthsOfMoreThanThreeDeviations) {
+  LastingSlip lasting;
+  lasting.add(0.5, 0.125, 0.5, 0.5);
+  EXPECT_FALSE(lasting.add(0.5, 0.125, 2.0, 0.5)) << "four lengths";
+  EXPECT_TRUE(lasting.add(0.5, 0.125, 0.125, 0.5));
+  for (const double side : {1.0, -1.0}) {
+    lasting.reset();
+    lasting.add(side * 0.375, 0.125, 8.0, 0.5);
+    EXPECT_FALSE(lasting.add(side * 0.375, 0.125, 8.0, 0.5)) << "three deviations";
+  }
+}
+
 }  // namespace
 }  // namespace slipnav::test

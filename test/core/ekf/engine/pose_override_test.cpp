@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "recorded_drive.h"
 #include "slipnav/core/base/rotation.h"
@@ -68,6 +71,7 @@ TEST_F(PoseOverrideTest, ThePositionIsTakenOver) {
 TEST_F(PoseOverrideTest, AHeadingTurnsTheVelocityToo) {
   run(8.0);
   const NavigationState before = filter_.state();
+  const ErrorCovariance P = filter_.covariance();
   ASSERT_GT(before.v_eb_n.norm(), 0.1);
   PoseOverride turned = pose();
   turned.heading_rad = 1.0;
@@ -79,6 +83,9 @@ TEST_F(PoseOverrideTest, AHeadingTurnsTheVelocityToo) {
   const Vector3 after_b = after.q_b_to_n.conjugate() * after.v_eb_n;
   EXPECT_LT((after_b - before_b).norm(), 1e-12);
   EXPECT_DOUBLE_EQ(filter_.covariance()(kAttitude + 2, kAttitude + 2), 0.01);
+  const double aside = 0.01 * after.v_eb_n.head<2>().squaredNorm();
+  EXPECT_NEAR(filter_.covariance()(kVelocity, kVelocity), P(kVelocity, kVelocity) + aside, 1e-9 * aside);
+  EXPECT_EQ(filter_.covariance()(kVelocity + 2, kVelocity + 2), P(kVelocity + 2, kVelocity + 2));
 }
 
 TEST_F(PoseOverrideTest, ImpossibleOnesAreRefused) {
@@ -134,6 +141,29 @@ TEST_F(PoseOverrideTest, ASmootherTakesNothingOfItIntoThePast) {
     const ErrorCovariance& P = filtered.at(epoch.nav.stamp);
     const ErrorVector weight = P.diagonal().cwiseSqrt().cwiseInverse();
     EXPECT_LT((weight.asDiagonal() * (epoch.P - P) * weight.asDiagonal()).cwiseAbs().maxCoeff(), 1e-3);
+  }
+}
+
+TEST_F(PoseOverrideTest, EveryNumberThatIsNoneIsRefused) {
+  run(8.0);
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<std::function<void(PoseOverride&)>> changes = {
+      [&](PoseOverride& p) { p.position.longitude_rad = infinity; },
+      [&](PoseOverride& p) { p.position.height_m = infinity; },
+      [](PoseOverride& p) { p.position.latitude_rad = 0.5 * kPi; },
+      [](PoseOverride& p) { p.position.latitude_rad = -0.5 * kPi; },
+      [](PoseOverride& p) { p.position_std_m = -1.0; },
+      [](PoseOverride& p) { p.position_std_m = std::nan(""); },
+      [&](PoseOverride& p) { p.heading_rad = infinity; },
+      [](PoseOverride& p) { p.heading_std_rad = 0.0; },
+      [](PoseOverride& p) { p.heading_std_rad = -0.1; }};
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    PoseOverride wrong = pose();
+    wrong.heading_rad = 1.0;
+    wrong.heading_std_rad = 0.1;
+    EXPECT_NO_THROW(filter_.place(wrong));
+    changes[i](wrong);
+    EXPECT_THROW(filter_.place(wrong), std::invalid_argument) << i;
   }
 }
 

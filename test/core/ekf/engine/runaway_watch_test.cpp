@@ -73,5 +73,27 @@ TEST_F(Runaway, TheLevelIsThatOfTheLastSeconds) {
   EXPECT_NEAR(watch_.levelStd_rad(kGravity_mps2), 2.0 / 5.0 / kGravity_mps2, 1e-9);
 }
 
+TEST_F(Runaway, IsNoneAtExactlyTwiceTheFastest) { EXPECT_EQ(ranAway(watch_, 1.0, 2.0, 60.0, now_), 0); }
+
+/// As at the start of a drive: a tenth of a meter per second is what they may do at any moment.
+TEST_F(Runaway, WheelsThatHardlyTurnAreNoMeasure) {
+  EXPECT_EQ(ranAway(watch_, 0.02, 0.19, 60.0, now_), 0);
+  EXPECT_EQ(ranAway(watch_, 0.02, 0.21, 1.15, now_), 1);
+}
+
+TEST_F(Runaway, TheWayIsThatOfTheLastTime) {
+  ranAway(watch_, 1.0, 9.0, 0.5, now_);
+  ranAway(watch_, 1.0, 1.0, 0.1, now_);
+  ranAway(watch_, 1.0, 3.0, 0.2, now_);
+  EXPECT_NEAR(watch_.wayBeyond_m(), 2.0 * 2.0 * kStep_s, 1e-12);
+}
+
+TEST_F(Runaway, OneLongStepIsAllThatIsKnownOfTheLevel) {
+  EXPECT_NEAR(watch_.levelStd_rad(kGravity_mps2), 0.1 / 0.1 / kGravity_mps2, 1e-12) << "nothing is known";
+  watch_.addImu({3.0, 0.0, -4.0}, 20.0);
+  EXPECT_NEAR(watch_.level().y(), std::atan2(3.0, 4.0), 1e-12);
+  EXPECT_NEAR(watch_.levelStd_rad(kGravity_mps2), 0.1 / 5.0 / kGravity_mps2, 1e-12);
+}
+
 }  // namespace
 }  // namespace slipnav::test

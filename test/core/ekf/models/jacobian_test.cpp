@@ -48,7 +48,10 @@ using Model = std::function<Measurement(const Point&)>;
 
 /// Central differences of the residual: ∂(measured − predicted)/∂(error) = −H.
 Eigen::MatrixXd numericJacobian(const Model& model, const Point& point) {
-  const int rows = static_cast<int>(model(point).residual.size());
+  const Measurement measurement = model(point);
+  const int rows = static_cast<int>(measurement.residual.size());
+  EXPECT_EQ(measurement.H.rows(), rows);
+  EXPECT_EQ(measurement.variance.size(), rows);
   Eigen::MatrixXd H(rows, static_cast<int>(kErrorStates));
   for (int k = 0; k < kErrorStates; ++k) {
     const double size = k >= kPosition && k < kPosition + 3 ? 1.0 : 1e-4;

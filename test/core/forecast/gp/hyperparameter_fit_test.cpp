@@ -277,6 +277,16 @@ TEST(HyperparameterFit, ABreakingLikelihoodFailsAndReturnsTheStart) {
   }
 }
 
+TEST(HyperparameterFit, AStartAtTheOptimumIsTheEnd) {
+  const std::vector<LogPrior> priors = {{0.0, 1.0, -10.0, 10.0, 0.1}};
+  BreakingProcess process(BreakingProcess::Way::kThrow, 1000);
+  const HyperparameterFit fit = fitHyperparameters(process, priors, Eigen::VectorXd::Zero(1), kSettings);
+  EXPECT_EQ(fit.outcome, FitOutcome::kConverged);
+  EXPECT_EQ(fit.log_parameters(0), 0.0);
+  EXPECT_EQ(fit.objective, 0.0);
+  EXPECT_EQ(fit.evaluations, 1);
+}
+
 TEST(HyperparameterFit, LengthsMustAgree) {
   BreakingProcess process(BreakingProcess::Way::kNaN, 0);
   const Eigen::MatrixXd curvature = Eigen::MatrixXd::Identity(1, 1);
