@@ -106,7 +106,8 @@ TEST(DetectorsReference, EstimatesThatRunAwayAndRoversThatDoNotObey) {
     for (int i = 0; i < kEventsPerLine; ++i) {
       stamp += dice.oneIn(40) ? -5 * kTenth : kTenth;
       runaway.addImu({dice.normal(), dice.normal(), -9.8}, dice.from<double>({0.125, 0.25, 6.0}));
-      const bool away = runaway.addWheels(stamp, wheels_mps, dice.oneIn(15) ? 0.0 : speed_mps, 0.125);
+      const double backward_mps = dice.from<double>({-1.0, -1.0, 0.0625, 0.25, 0.3125});
+      const bool away = runaway.addWheels(stamp, wheels_mps, dice.oneIn(15) ? 0.0 : speed_mps, backward_mps, 0.125);
       const bool rests = line % 2 == 0 && !dice.oneIn(12);
       const RoverObservation seen{
           stamp, dice.from<double>({0.65, -0.65, 0.9}), 0.1, rests && line % 4 == 0, !dice.oneIn(3), rests};

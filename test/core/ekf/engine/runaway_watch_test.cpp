@@ -84,8 +84,8 @@ TEST_F(Runaway, WheelsThatHardlyTurnAreNoMeasure) {
 TEST_F(Runaway, TheWayIsThatOfTheLastTime) {
   ranAway(watch_, 1.0, 9.0, 0.5, now_);
   ranAway(watch_, 1.0, 1.0, 0.1, now_);
-  ranAway(watch_, 1.0, 3.0, 0.2, now_);
-  EXPECT_NEAR(watch_.wayBeyond_m(), 2.0 * 2.0 * kStep_s, 1e-12);
+  EXPECT_EQ(ranAway(watch_, 1.0, 3.0, 1.15, now_), 1);
+  EXPECT_NEAR(watch_.wayBeyond_m(), 11.0 * 2.0 * kStep_s, 1e-12);
 }
 
 TEST_F(Runaway, OneLongStepIsAllThatIsKnownOfTheLevel) {
