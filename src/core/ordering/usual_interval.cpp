@@ -63,7 +63,7 @@ void UsualInterval::follow(double interval_s) {
   }
 }
 
-/// Since the newest one that is long enough ago; older ones are not needed any more.
+/// Since the newest one that is long enough ago; older ones are no longer needed.
 void UsualInterval::meanSinceBegin() {
   std::size_t newest = begin_count_;
   while (newest > 0 && begins_[newest - 1].intervals < kSpan) {

@@ -7,7 +7,7 @@
 namespace slipnav {
 namespace {
 
-constexpr double kFactor = 2.0;  // a wheel that locks at speed leaves the vehicle at that speed, once
+constexpr double kFactor = 2.0;     // a wheel that locks at speed leaves the vehicle at that speed, once
 constexpr double kBackward = 0.25;  // a vehicle that stands on spinning wheels may seem to move, either way
 constexpr double kApart = 0.5;
 constexpr double kLasting_s = 1.0;
