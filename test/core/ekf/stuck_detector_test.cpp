@@ -75,6 +75,16 @@ TEST_F(StuckDetectorTest, OnceStuckTheEstimateNoLongerDecides) {
   EXPECT_TRUE(judge(drifted, 1.0));
 }
 
+/// Before it is found out, the wheels pull the estimate along.
+TEST_F(StuckDetectorTest, ItNeedNotSeemSlowToTheEnd) {
+  SpinEvidence pulled = spinning();
+  pulled.forward_mps = 0.2;
+  EXPECT_FALSE(judge(spinning(), 0.4));
+  EXPECT_FALSE(judge(pulled, 2.0)) << "too short";
+  EXPECT_FALSE(judge(spinning(), 0.7));
+  EXPECT_TRUE(judge(pulled, 0.5));
+}
+
 TEST_F(StuckDetectorTest, EndsWithTheCalm) {
   ASSERT_TRUE(judge(spinning(), 2.0));
   SpinEvidence free = spinning();
